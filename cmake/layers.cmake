@@ -1,0 +1,66 @@
+# One static library per folder of src/, and what all of them share.
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(glm REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Boost REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+# Debian ships a float and a float64 Bullet side by side; this is the float one.
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
+
+find_library(XXHASH_LIBRARY xxhash REQUIRED)
+find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
+find_package(tomlplusplus QUIET)
+
+add_library(ringcraft_flags INTERFACE)
+target_include_directories(ringcraft_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
+target_compile_features(ringcraft_flags INTERFACE cxx_std_20)
+# Same inputs, same bytes: no contraction of a*b+c, never -ffast-math.
+target_compile_options(ringcraft_flags INTERFACE
+  -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+target_compile_definitions(ringcraft_flags INTERFACE
+  RINGCRAFT_SOURCE_ASSETS="${CMAKE_SOURCE_DIR}/assets" RINGCRAFT_VERSION="${PROJECT_VERSION}")
+if(RINGCRAFT_SANITIZE)
+  target_compile_options(ringcraft_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(ringcraft_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# What a layer links from outside, besides the layers below it.
+set(ringcraft_base_packages fmt::fmt spdlog::spdlog glm::glm nlohmann_json::nlohmann_json
+    Threads::Threads ${XXHASH_LIBRARY})
+set(ringcraft_motion_packages Eigen3::Eigen Boost::headers)
+set(ringcraft_physics_packages PkgConfig::BULLET Eigen3::Eigen)
+set(ringcraft_io_packages ${TINYGLTF_LIBRARY})
+
+# ringcraft_layer(NAME BELOW...): the static library ringcraft_NAME from src/NAME.
+function(ringcraft_layer name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.h)
+  if(NOT sources)
+    add_library(ringcraft_${name} INTERFACE)
+    set(access INTERFACE)
+  else()
+    add_library(ringcraft_${name} STATIC ${sources})
+    set(access PUBLIC)
+    # Every public header compiles alone (target all_verify_interface_header_sets).
+    target_sources(ringcraft_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR}/src
+      FILES ${headers})
+    set_target_properties(ringcraft_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  endif()
+  target_link_libraries(ringcraft_${name} ${access} ringcraft_flags ${ringcraft_${name}_packages})
+  foreach(below IN LISTS ARGN)
+    target_link_libraries(ringcraft_${name} ${access} ringcraft_${below})
+  endforeach()
+endfunction()
+
+# The command `ringcraft` from src/cli.
+function(ringcraft_command)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/cli/*.cpp)
+  if(sources)
+    add_executable(ringcraft ${sources})
+    target_link_libraries(ringcraft PRIVATE ringcraft_scene)
+  endif()
+endfunction()

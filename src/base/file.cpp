@@ -1,0 +1,89 @@
+#include "base/file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+namespace ringcraft {
+
+namespace fs = std::filesystem;
+
+Result<std::string> read_file(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::exists(path, failed)) {
+    return input_error(path.string(), "", "no such file", "check the path");
+  }
+  if (!fs::is_regular_file(path, failed)) {
+    return input_error(path.string(), "", "not a regular file", "name a file, not a folder");
+  }
+  const auto size = fs::file_size(path, failed);
+  if (failed) return input_error(path.string(), "", failed.message(), "check its permissions");
+  if (size > kLargestInput) {
+    return input_error(path.string(), "", "larger than 256 MiB", "cut it into smaller files");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(size, '\0');
+  if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    return input_error(path.string(), "", "cannot be read", "check its permissions");
+  }
+  return bytes;
+}
+
+Result<void> write_file(const fs::path& path, std::string_view bytes) {
+  const auto failure = [&](int code) -> tl::unexpected<Error> {
+    return input_error(path.string(), "", std::string("cannot be written: ") + std::strerror(code),
+                       "choose an output folder you can write to with --out");
+  };
+  fs::path beside = path;
+  beside += ".part" + std::to_string(::getpid());
+  {
+    errno = 0;
+    std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
+    if (!stream) return failure(errno);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    stream.close();
+    if (!stream) {
+      const int code = errno;
+      std::error_code ignored;
+      fs::remove(beside, ignored);
+      return failure(code);
+    }
+  }
+  std::error_code failed;
+  fs::rename(beside, path, failed);
+  if (failed) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    return failure(failed.value());
+  }
+  return {};
+}
+
+Result<void> make_output_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed || !fs::is_directory(folder)) {
+    return input_error(folder.string(), "",
+                       "output folder cannot be made: " +
+                           (failed ? failed.message() : std::string("a file is in the way")),
+                       "choose another with --out");
+  }
+  const fs::path probe = folder / (".ringcraft-probe" + std::to_string(::getpid()));
+  const auto written = write_file(probe, "");
+  if (!written) {
+    return input_error(folder.string(), "", "output folder cannot be written to",
+                       "choose another with --out");
+  }
+  fs::remove(probe, failed);
+  return {};
+}
+
+fs::path assets_folder() {
+  if (const char* named = std::getenv("RINGCRAFT_ASSETS")) return named;
+  return RINGCRAFT_SOURCE_ASSETS;
+}
+
+}  // namespace ringcraft

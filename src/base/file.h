@@ -1,0 +1,26 @@
+#pragma once
+// Reading whole files, and writing them whole or not at all.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace ringcraft {
+
+// Largest file that is read (256 MiB): an input cannot exhaust the program.
+inline constexpr std::uintmax_t kLargestInput = 256u << 20;
+
+Result<std::string> read_file(const std::filesystem::path& path);
+
+// Writes beside the target, then renames: the file appears whole or not at all.
+Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+
+// Makes the folder and checks that files can be written there.
+Result<void> make_output_folder(const std::filesystem::path& folder);
+
+// The folder `assets`: RINGCRAFT_ASSETS from the environment, else the source tree's.
+std::filesystem::path assets_folder();
+
+}  // namespace ringcraft

@@ -1,0 +1,35 @@
+#pragma once
+// What comes out of a fight: fight.glb, events.jsonl, report.json, timing.json, fight.html.
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fight/timeline.h"
+#include "physics/body.h"
+
+namespace ringcraft {
+
+// How a fighter looks and is called.
+struct FighterLook {
+  std::string name;
+  BodyModel body;
+  Vec3 shorts{0.7f, 0.1f, 0.1f};  // linear RGB
+  Vec3 gloves{0.7f, 0.1f, 0.1f};
+  Vec3 skin{0.55f, 0.36f, 0.26f};
+};
+
+// One skinned mannequin per fighter (node `fighter0` ...), canonical bone names, one animation, 60 Hz
+// LINEAR, baked; events in animations[0].extras. Bytes of a .glb.
+std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& looks);
+
+// A header line, then one JSON object per event.
+std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook>& looks,
+                         const nlohmann::json& header);
+
+// One self-contained page that opens from file://: the GLB and the events are embedded.
+Result<std::string> fight_html(const std::string& glb, const std::string& events,
+                               const nlohmann::json& report);
+
+}  // namespace ringcraft

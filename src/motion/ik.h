@@ -1,0 +1,27 @@
+#pragma once
+// Two-link inverse kinematics for arms and legs, in closed form.
+
+#include "motion/pose.h"
+
+namespace ringcraft {
+
+struct LimbTarget {
+  Vec3 position{};              // where the end joint (wrist, ankle) goes, m
+  Vec3 pole{};                  // direction the middle joint (elbow, knee) points, from the limb's line
+  float soft_share = 0.985f;    // of the limb's length: beyond it the reach is eased, so that no
+                                // joint pops when the target moves out of reach
+};
+
+// Turns the limb's root and middle joints so that its end reaches the target; the end joint keeps its
+// world rotation. Targets out of reach are approached along the line. The middle joint bends about one
+// axis only (x of the lower leg, y of the lower arm in the rest pose), as a hinge does.
+void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& target, Pose& pose);
+
+// Sets the world rotation of one joint.
+void set_world_rotation(const Skeleton& skeleton, Joint joint, Quat rotation, Pose& pose);
+
+// Pole direction that keeps the limb's present bend: from the root-end line to the middle joint. A
+// straight limb answers with `fallback`.
+Vec3 present_pole(const WorldPose& world, const Limb& limb, Vec3 fallback);
+
+}  // namespace ringcraft

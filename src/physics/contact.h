@@ -1,0 +1,34 @@
+#pragma once
+// Strike contact: the swept capsule of the striking part against the body parts, guard first.
+
+#include <optional>
+
+#include "motion/action.h"
+#include "physics/body.h"
+
+namespace ringcraft {
+
+// The capsules of one body at two neighbouring moments.
+struct SweptBody {
+  BodyCapsules before, after;
+  float seconds = 1.0f / 120.0f;  // between them
+};
+
+struct Contact {
+  Part striker = Part::right_hand;
+  Part struck = Part::head;   // the first part in the way, a guarding forearm or glove where blocked
+  bool blocked = false;
+  Vec3 point{};               // on the struck part's surface, world, m
+  Vec3 normal{};              // unit, from the struck part's axis toward the striker
+  Vec3 velocity{};            // of the striker relative to the struck part at the point, m/s
+  float share = 0;            // when between `before` (0) and `after` (1)
+};
+
+// First contact of `striker` with a part of the target in the interval, or nothing. A guard part in the
+// way is a block. Only an approaching striker makes contact.
+std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker, const SweptBody& target);
+
+// The same against one zone only, as the table look-up of the planner does it.
+std::uint32_t zone_parts(TargetZone zone);
+
+}  // namespace ringcraft

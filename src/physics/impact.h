@@ -1,0 +1,66 @@
+#pragma once
+// The hit: strike -> impulse -> ragdoll impulse step in Bullet -> response. Design section 6.
+
+#include <span>
+
+#include "physics/contact.h"
+
+namespace ringcraft {
+
+// The striking limb's effective mass along the line of the blow, kg: 1 / (n J M^-1 J^T n) of the
+// articulated body, with the muscles' tone over the contact time (ragdoll.md section 4).
+float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
+                     float tone);
+
+struct Blow {
+  Part part = Part::head;    // struck
+  Vec3 point{};              // world, m
+  Vec3 impulse{};            // world, N s
+  float effective_mass = 0;  // of the striker, kg
+  float speed = 0;           // closing speed along the line, m/s
+  bool blocked = false;
+};
+
+// J = (1+e) v / (1/m_striker + 1/m_struck) along the line of the blow; a block passes on a part of it.
+Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
+             const Pose& target_pose, const Contact& contact, StrikeKind kind);
+
+// What the impulse step starts from.
+struct ImpactInput {
+  Pose pose;                        // world, at the contact
+  Pose pose_before;                 // one tick earlier: gives the start velocities
+  std::span<const Pose> continued;  // world: the interrupted action's next frames, which the muscles
+                                    // track; at least kImpulseStepTicks + 1, pose first
+  Blow blow;
+  float tone = 1.0f;                // 0 limp .. 1 full
+  FootContacts contacts;            // feet on the ground at the contact
+};
+
+inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
+
+struct ImpactOutcome {
+  ResponseKind response = ResponseKind::absorb;
+  int steps = 0;                // 1..3 for recovery steps
+  float direction = 0;          // world yaw in which the body goes
+  bool knockout = false;        // a knockdown because the head's rotation switched the muscles off
+  float head_spin = 0;          // change of the head's angular velocity, rad/s
+  float margin = 0;             // m: the extrapolated centre of mass beyond the base of support (< 0 inside)
+  Vec3 com_velocity{};          // after the impulse step, m/s
+  bool operator==(const ImpactOutcome&) const = default;
+};
+
+// A fresh Bullet world in a canonical frame (root at the origin, heading removed), 24 steps of 1/240 s,
+// then the decision by capturability and head rotation. Same input, same bits.
+ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input);
+
+// The shown response: a second simulation, active, from the same start, aimed at `target` (world poses,
+// one a tick from the contact on). Returns `ticks` world poses, the first one tick after the contact. A
+// knockdown falls with bracing arms and comes to rest; a knockout falls limp.
+std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
+                                    const ImpactOutcome& outcome, std::span<const Pose> target,
+                                    Tick ticks);
+
+// Damage of a blow in thousandths of a point (1 point = a tenth of ... see impact.cpp), by zone.
+std::int32_t damage_of(const Blow& blow, const ImpactOutcome& outcome);
+
+}  // namespace ringcraft

@@ -1,0 +1,69 @@
+#pragma once
+// Planning: temporal expansion (Shum & Komura 2006) searched by alpha-beta.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fight/timeline.h"
+#include "physics/body.h"
+#include "planner/style.h"
+
+namespace ringcraft {
+
+class MotionTables;  // per library and body: capsules, roots and strike sweeps by action and tick
+class ImpactMemo;    // quantised impulse steps, shared by a fight; a memo never changes a result
+
+// One fighter as the planner sees it.
+struct Contender {
+  BodyModel body;
+  Style style;
+};
+
+struct PruneSettings {
+  bool unanswered_hit = true;
+  bool back_turned = true;
+  bool penetration = true;
+  double penetration_m = 0.03;    // deeper prunes the branch
+  Tick penetration_every = 4;     // ticks between checks
+};
+
+struct PlanSettings {
+  PruneSettings prune;
+  std::uint64_t node_limit = 60'000;  // per decision; 0 is none. Iterative deepening only under a limit
+  int threads = 1;                    // never changes the result
+  double ring_half_m = 3.0;           // half the side of the square ring; 0 is no ring
+  bool hits_on_downed = false;
+  bool alpha_beta = true;             // false: plain minimax, for tests
+};
+
+struct Plan {
+  Launch launch;           // of the chosen action
+  DecisionRecord record;   // lines, nodes, what was pruned
+  std::vector<Event> foreseen;  // hits with their responses along the principal variation
+};
+
+// What does not change during a fight. Immutable but for the memo and the use counts.
+class Planner {
+ public:
+  Planner(const MotionLibrary& library, std::vector<Contender> contenders, PlanSettings settings,
+          std::uint64_t seed);
+  ~Planner();
+
+  // The decision of `fighter`, who acts now, against its opponent; the others are obstacles.
+  Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
+
+  // Rarity: tells the planner what was committed.
+  void note_launch(FighterId fighter, ActionId action);
+
+  struct MemoCounts {
+    std::uint64_t hits = 0, misses = 0;
+  };
+  MemoCounts memo_counts() const;
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace ringcraft
