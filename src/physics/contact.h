@@ -28,7 +28,17 @@ struct Contact {
 // way is a block. Only an approaching striker makes contact.
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker, const SweptBody& target);
 
-// The same against one zone only, as the table look-up of the planner does it.
+// The same for whatever part of the limb the strike can land with (striking_parts): the earliest one.
+std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
+                                      const SweptBody& target);
+
+// Parts a strike can land with, bit index(part): the glove; the foot; of a roundhouse the shin too. To
+// be excepted from penetration while the strike is active.
+std::uint32_t striking_parts(const Strike& strike);
+
+// Parts of a zone, bit index(part). Guard parts belong to none. Head: head and neck; body: trunk and
+// upper arms; leg: thighs, shins, feet.
 std::uint32_t zone_parts(TargetZone zone);
+TargetZone zone_of(Part part);  // guard parts count as body
 
 }  // namespace ringcraft

@@ -38,6 +38,13 @@ struct ImpactInput {
 
 inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
 
+// Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. A clean
+// cross gives about 25 at neck tone 0.5; of order 1 % of landed punches knock down (validation V1).
+inline constexpr float kKnockoutSpin = 38.0f;
+
+// Whole-body tone under which nobody stands (ragdoll.md section 7, 12).
+inline constexpr float kLeastStandingTone = 0.25f;
+
 struct ImpactOutcome {
   ResponseKind response = ResponseKind::absorb;
   int steps = 0;                // 1..3 for recovery steps
@@ -60,7 +67,8 @@ std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& in
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks);
 
-// Damage of a blow in thousandths of a point (1 point = a tenth of ... see impact.cpp), by zone.
+// Damage of a blow in thousandths of a point, by impulse and zone; a clean jab to the head costs about
+// 3 points, a cross 7, a hook 8, a roundhouse to the body 12. A fighter starts with 100.
 std::int32_t damage_of(const Blow& blow, const ImpactOutcome& outcome);
 
 }  // namespace ringcraft
