@@ -15,16 +15,17 @@ namespace ringcraft {
 
 struct Document {
   std::filesystem::path path;
-  nlohmann::json value;              // the TOML as JSON (objects, arrays, numbers, strings, booleans)
+  nlohmann::json value;  // the TOML as JSON (objects, arrays, numbers, strings, booleans)
   std::map<std::string, int> lines;  // JSON pointer ("/fighter/0/style") -> line in the file
 
-  // "line 12", or "" where the pointer is not in the file.
+  // "line 12"; "--set" for a value that set_value() gave; "" where the pointer is not in the file.
   std::string place(const std::string& pointer) const;
 };
 
 // Reads `path` and checks it against assets/schemas/<schema>.schema.json. Schemas use a subset of
 // draft 7: type, properties, required, additionalProperties, items, enum, minimum, maximum,
-// exclusiveMinimum, minItems, maxItems, pattern, and $ref to "#/definitions/...".
+// exclusiveMinimum, exclusiveMaximum, minItems, maxItems, minLength, pattern, and $ref to
+// "#/definitions/...".
 Result<Document> read_document(const std::filesystem::path& path, const std::string& schema);
 
 // The same from text; `path` is only for messages.

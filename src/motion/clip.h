@@ -5,6 +5,7 @@
 // fighter faces (where the opponent stands), +X the own left. Root motion is part of the frames; the
 // root track says where the placement is at each frame, relative to the start.
 
+#include <string>
 #include <vector>
 
 #include "base/ticks.h"

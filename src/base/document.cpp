@@ -1,0 +1,237 @@
+#include "base/document.h"
+
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 0
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "base/file.h"
+#include "base/schema.h"
+
+namespace ringcraft {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kLargestDocument = 4u << 20;  // bytes
+constexpr int kDeepest = 32;                        // tables and arrays inside one another
+constexpr int kMostIndex = 10'000;                  // largest array index of --set
+
+std::string line_place(const toml::source_region& region) {
+  return fmt::format("line {}, column {}", region.begin.line, region.begin.column);
+}
+
+// Number of parts of the longest dotted key. toml++ bounds nested values, not dotted keys, and a
+// table a million deep exhausts the stack when it is destroyed.
+int longest_key(std::string_view text) {
+  int longest = 0, parts = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') {
+      while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
+    } else if (c == '"' || c == '\'') {
+      const bool block = text.substr(i, 3) == std::string(3, c);
+      const std::size_t width = block ? 3 : 1;
+      for (i += width; i < text.size() && text.substr(i, width) != std::string(width, c); ++i) {
+        if (c == '"' && text[i] == '\\') ++i;
+        if (!block && i < text.size() && text[i] == '\n') break;
+      }
+      i += width - 1;
+    } else if (c == '.') {
+      longest = std::max(longest, ++parts);
+    } else if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) {
+      parts = 1;
+    }
+  }
+  return longest;
+}
+
+// TOML as JSON, with the line of every value.
+class Converter {
+ public:
+  Converter(std::string file, std::map<std::string, int>& lines)
+      : file_(std::move(file)), lines_(lines) {}
+
+  Result<json> convert(const toml::node& node, const std::string& pointer, int depth) {
+    if (depth > kDeepest) {
+      return usage_error(file_, line_place(node.source()), "nested too deeply",
+                         fmt::format("keep it within {} levels", kDeepest));
+    }
+    if (!lines_.contains(pointer)) lines_[pointer] = static_cast<int>(node.source().begin.line);
+    if (const auto* table = node.as_table()) return convert_table(*table, pointer, depth);
+    if (const auto* array = node.as_array()) return convert_array(*array, pointer, depth);
+    if (const auto* text = node.as_string()) return json(text->get());
+    if (const auto* number = node.as_integer()) return json(number->get());
+    if (const auto* flag = node.as_boolean()) return json(flag->get());
+    if (const auto* number = node.as_floating_point()) {
+      if (std::isfinite(number->get())) return json(number->get());
+      return usage_error(file_, line_place(node.source()), "the number is not finite",
+                         "write a finite number");
+    }
+    return usage_error(file_, line_place(node.source()), "dates and times have no use here",
+                       "put the value in quotes if a text is meant");
+  }
+
+ private:
+  Result<json> convert_table(const toml::table& table, const std::string& pointer, int depth) {
+    json object = json::object();
+    for (const auto& [key, child] : table) {
+      const std::string at = json_pointer(pointer, key.str());
+      if (key.source().begin.line > 0) lines_[at] = static_cast<int>(key.source().begin.line);
+      auto value = convert(child, at, depth + 1);
+      if (!value) return value;
+      object[std::string(key.str())] = std::move(*value);
+    }
+    return object;
+  }
+
+  Result<json> convert_array(const toml::array& array, const std::string& pointer, int depth) {
+    json list = json::array();
+    for (const toml::node& child : array) {
+      auto value = convert(child, json_pointer(pointer, std::to_string(list.size())), depth + 1);
+      if (!value) return value;
+      list.push_back(std::move(*value));
+    }
+    return list;
+  }
+
+  std::string file_;
+  std::map<std::string, int>& lines_;
+};
+
+Result<Document> parse(const std::string& text, const std::filesystem::path& path) {
+  Document document{path, {}, {}};
+  if (text.size() > kLargestDocument) {
+    return usage_error(path.string(), "", "larger than 4 MiB", "split it");
+  }
+  if (longest_key(text) > kDeepest) {
+    return usage_error(path.string(), "", "a dotted key is nested too deeply",
+                       fmt::format("keep it within {} levels", kDeepest));
+  }
+  const toml::parse_result parsed = toml::parse(std::string_view(text), path.string());
+  if (!parsed) {
+    return usage_error(path.string(), line_place(parsed.error().source()),
+                       "not valid TOML: " + std::string(parsed.error().description()),
+                       "correct the syntax there");
+  }
+  auto value = Converter(path.string(), document.lines).convert(parsed.table(), "", 0);
+  if (!value) return tl::unexpected(value.error());
+  document.value = std::move(*value);
+  return document;
+}
+
+Result<json> read_schema(const std::string& schema) {
+  auto text = schema_text(schema);
+  if (!text) return tl::unexpected(text.error());
+  json value = json::parse(*text, nullptr, false);
+  if (!value.is_object()) {
+    return input_error(schema + ".schema.json", "", "not a JSON schema", "restore assets/schemas");
+  }
+  return value;
+}
+
+// The value of --set: TOML, or the text itself where it is a bare word.
+Result<json> set_text(const std::string& text, const std::string& assignment) {
+  if (text.find_first_of("\n\r") == std::string::npos) {
+    const auto document = parse("value = " + text + "\n", "--set");
+    if (document && document->value.size() == 1) return document->value["value"];
+    const bool bare = !text.empty() && std::string("\"'[{").find(text[0]) == std::string::npos;
+    const bool not_finite = text.ends_with("inf") || text.ends_with("nan");
+    if (bare && !not_finite) return json(text);
+  }
+  return usage_error(
+      "--set " + assignment, "", "the value is not valid",
+      "write path.to.key=value with a finite number, true, false, \"text\" or [list]");
+}
+
+std::vector<std::string> steps_of(const std::string& path) {
+  std::vector<std::string> steps;
+  std::size_t from = 0;
+  for (std::size_t dot = 0; dot != std::string::npos; from = dot + 1) {
+    dot = path.find('.', from);
+    steps.push_back(path.substr(from, dot == std::string::npos ? dot : dot - from));
+  }
+  return steps;
+}
+
+// The child of `at` that `step` names; made where it is missing. Null where it cannot be.
+json* child_of(json& at, const std::string& step) {
+  if (at.is_null()) at = json::object();
+  if (at.is_object()) return &at[step];
+  if (!at.is_array()) return nullptr;
+  int index = -1;
+  const auto [end, failed] = std::from_chars(step.data(), step.data() + step.size(), index);
+  if (failed != std::errc() || end != step.data() + step.size()) return nullptr;
+  if (index < 0 || index > kMostIndex || index > static_cast<int>(at.size())) return nullptr;
+  if (index == static_cast<int>(at.size())) at.push_back(json());
+  return &at[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+std::string Document::place(const std::string& pointer) const {
+  const auto line = lines.find(pointer);
+  if (line == lines.end()) return {};
+  return line->second == 0 ? "--set" : fmt::format("line {}", line->second);
+}
+
+Result<Document> read_document(const std::filesystem::path& path, const std::string& schema) {
+  const auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_document(*text, path, schema);
+}
+
+Result<Document> parse_document(const std::string& text, const std::filesystem::path& path,
+                                const std::string& schema) {
+  auto document = parse(text, path);
+  if (!document) return document;
+  if (const auto valid = checked(*document, schema); !valid) return tl::unexpected(valid.error());
+  return document;
+}
+
+Result<void> set_value(Document& document, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return usage_error("--set " + assignment, "", "not an assignment", "write path.to.key=value");
+  }
+  const auto value = set_text(assignment.substr(equals + 1), assignment);
+  if (!value) return tl::unexpected(value.error());
+  const auto steps = steps_of(assignment.substr(0, equals));
+  if (steps.size() > kDeepest) {
+    return usage_error("--set " + assignment, "", "nested too deeply", "shorten the path");
+  }
+  json changed = document.value;
+  json* at = &changed;
+  std::string pointer;
+  for (const std::string& step : steps) {
+    at = step.empty() ? nullptr : child_of(*at, step);
+    if (at == nullptr) {
+      return usage_error("--set " + assignment, "", "no such place: '" + step + "'",
+                         "name keys and array indices that exist, as in fighter.0.horizon_s=2");
+    }
+    pointer = json_pointer(pointer, step);
+    document.lines.try_emplace(pointer, 0);
+  }
+  *at = *value;
+  document.value = std::move(changed);
+  // Lines of what stood below are gone; 0 says that the value came from --set.
+  std::erase_if(document.lines, [&](const auto& l) { return l.first.starts_with(pointer + "/"); });
+  document.lines[pointer] = 0;
+  return {};
+}
+
+Result<void> checked(const Document& document, const std::string& schema) {
+  const auto rules = read_schema(schema);
+  if (!rules) return tl::unexpected(rules.error());
+  return check_schema(document, *rules);
+}
+
+Result<std::string> schema_text(const std::string& schema) {
+  return read_file(assets_folder() / "schemas" / (schema + ".schema.json"));
+}
+
+}  // namespace ringcraft

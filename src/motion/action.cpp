@@ -1,0 +1,82 @@
+#include "motion/action.h"
+
+#include <array>
+
+namespace ringcraft {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kKinds = {"attack",   "defense", "transition", "combination",
+                                                    "response", "get-up",  "idle"};
+constexpr std::array<std::string_view, 3> kZones = {"head", "body", "leg"};
+constexpr std::array<std::string_view, 6> kStrikes = {"straight",   "hook",       "uppercut",
+                                                      "front_kick", "roundhouse", "side_kick"};
+constexpr std::array<std::string_view, 7> kDefenses = {"guard", "parry", "slip",     "duck",
+                                                       "sway",  "check", "step_away"};
+constexpr std::array<std::string_view, 3> kResponses = {"absorb", "recovery_steps", "knockdown"};
+constexpr std::array<std::string_view, 5> kLyings = {"none", "back", "front", "side", "seat"};
+
+template <class Enum, std::size_t N>
+std::string_view name_in(const std::array<std::string_view, N>& names, Enum value) {
+  return names[static_cast<std::size_t>(value)];
+}
+
+template <class Enum, std::size_t N>
+std::optional<Enum> value_in(const std::array<std::string_view, N>& names, std::string_view name) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (names[i] == name) return static_cast<Enum>(i);
+  }
+  return std::nullopt;
+}
+
+// "left" and "right" as words of a name change places.
+std::string mirrored_name(const std::string& name) {
+  std::string result;
+  std::size_t at = 0;
+  while (at < name.size()) {
+    if (name.compare(at, 4, "left") == 0) {
+      result += "right";
+      at += 4;
+    } else if (name.compare(at, 5, "right") == 0) {
+      result += "left";
+      at += 5;
+    } else {
+      result += name[at++];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view name_of(Kind kind) { return name_in(kKinds, kind); }
+std::string_view name_of(TargetZone zone) { return name_in(kZones, zone); }
+std::string_view name_of(StrikeKind kind) { return name_in(kStrikes, kind); }
+std::string_view name_of(DefenseKind kind) { return name_in(kDefenses, kind); }
+std::string_view name_of(ResponseKind kind) { return name_in(kResponses, kind); }
+std::string_view name_of(Lying lying) { return name_in(kLyings, lying); }
+std::optional<Kind> kind_from_name(std::string_view name) { return value_in<Kind>(kKinds, name); }
+std::optional<TargetZone> zone_from_name(std::string_view name) {
+  return value_in<TargetZone>(kZones, name);
+}
+std::optional<StrikeKind> strike_kind_from_name(std::string_view name) {
+  return value_in<StrikeKind>(kStrikes, name);
+}
+std::optional<DefenseKind> defense_kind_from_name(std::string_view name) {
+  return value_in<DefenseKind>(kDefenses, name);
+}
+std::optional<ResponseKind> response_kind_from_name(std::string_view name) {
+  return value_in<ResponseKind>(kResponses, name);
+}
+std::optional<Lying> lying_from_name(std::string_view name) { return value_in<Lying>(kLyings, name); }
+
+Action mirrored(const Action& action) {
+  Action result = action;
+  result.name = mirrored_name(action.name);
+  result.clip = mirrored(action.clip);
+  for (Strike& strike : result.strikes) strike.joint = mirrored(strike.joint);
+  if (result.response) result.response->direction = -result.response->direction;
+  return result;
+}
+
+}  // namespace ringcraft

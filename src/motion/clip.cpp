@@ -1,0 +1,133 @@
+#include "motion/clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace ringcraft {
+
+namespace {
+
+template <class T>
+const T& clamped(const std::vector<T>& values, Tick tick) {
+  const auto last = static_cast<Tick>(values.size()) - 1;
+  return values[static_cast<std::size_t>(std::clamp<Tick>(tick, 0, last))];
+}
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(Quat q) {
+  return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
+}
+
+// Runs of `value` shorter than `ticks` between two others are turned over.
+void close_runs(std::vector<bool>& flags, bool value, Tick ticks) {
+  std::size_t begin = 0;
+  while (begin < flags.size()) {
+    std::size_t end = begin;
+    while (end < flags.size() && flags[end] == flags[begin]) ++end;
+    const bool inner = begin > 0 && end < flags.size();
+    if (flags[begin] == value && inner && static_cast<Tick>(end - begin) < ticks) {
+      std::fill(flags.begin() + static_cast<std::ptrdiff_t>(begin),
+                flags.begin() + static_cast<std::ptrdiff_t>(end), !value);
+    }
+    begin = end;
+  }
+}
+
+}  // namespace
+
+const Pose& Clip::at(Tick tick) const { return clamped(frames, tick); }
+const Placement& Clip::root_at(Tick tick) const { return clamped(root, tick); }
+FootContacts Clip::contacts_at(Tick tick) const { return clamped(contacts, tick); }
+
+std::vector<std::string> faults(const Clip& clip) {
+  std::vector<std::string> found;
+  if (clip.frames.size() < 2) found.emplace_back("rule 1: fewer than two frames");
+  if (clip.root.size() != clip.frames.size() || clip.contacts.size() != clip.frames.size()) {
+    found.emplace_back("rule 2: frames, root and contacts differ in length");
+    return found;
+  }
+  if (!clip.root.empty() && (std::abs(clip.root[0].x) > 1e-4f || std::abs(clip.root[0].z) > 1e-4f ||
+                             std::abs(clip.root[0].yaw) > 1e-4f)) {
+    found.emplace_back("rule 3: the root track does not start at the identity");
+  }
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    const Pose& pose = clip.frames[i];
+    if (!finite(pose.hips)) found.push_back(fmt::format("rule 4: frame {}: hips not finite", i));
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Quat q = pose.rotation[j];
+      if (!finite(q)) {
+        found.push_back(fmt::format("rule 4: frame {}: {} not finite", i, vrm_name(joint_at(j))));
+      } else if (std::abs(glm::length(q) - 1) > 1e-3f) {
+        found.push_back(fmt::format("rule 5: frame {}: {} not unit", i, vrm_name(joint_at(j))));
+      } else if (i > 0 && glm::dot(q, clip.frames[i - 1].rotation[j]) < 0) {
+        found.push_back(fmt::format("rule 5: frame {}: {} changes hemisphere", i,
+                                    vrm_name(joint_at(j))));
+      }
+    }
+    if (found.size() > 8) break;
+  }
+  return found;
+}
+
+Clip mirrored(const Clip& clip) {
+  Clip result;
+  result.frames.reserve(clip.frames.size());
+  for (const Pose& pose : clip.frames) result.frames.push_back(mirrored(pose));
+  for (const Placement& placement : clip.root) result.root.push_back(mirrored(placement));
+  for (const FootContacts& c : clip.contacts) result.contacts.push_back({c.right, c.left});
+  return result;
+}
+
+Clip cut(const Clip& clip, Tick first, Tick last) {
+  const Tick end = clip.length();
+  first = std::clamp<Tick>(first, 0, end);
+  last = std::clamp<Tick>(last, first, end);
+  const Placement to_start = inverse(clip.root_at(first));
+  Clip result;
+  for (Tick tick = first; tick <= last; ++tick) {
+    result.frames.push_back(placed(clip.at(tick), to_start));
+    result.root.push_back(to_start * clip.root_at(tick));
+    result.contacts.push_back(clip.contacts_at(tick));
+  }
+  if (!result.root.empty()) result.root[0] = {};
+  unroll_rotations(result);
+  return result;
+}
+
+void unroll_rotations(Clip& clip) {
+  for (std::size_t i = 1; i < clip.frames.size(); ++i) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      Quat& q = clip.frames[i].rotation[j];
+      q = in_hemisphere_of(q, clip.frames[i - 1].rotation[j]);
+    }
+  }
+}
+
+void label_contacts(const Skeleton& skeleton, Clip& clip, float height, float speed, Tick ticks) {
+  const std::size_t count = clip.frames.size();
+  clip.contacts.assign(count, {});
+  std::vector<WorldPose> world;
+  world.reserve(count);
+  for (const Pose& pose : clip.frames) world.push_back(world_pose(skeleton, pose));
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t ball = index(toes(side));
+    std::vector<bool> planted(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t before = i >= 2 ? i - 2 : 0;
+      const std::size_t after = std::min(i + 2, count - 1);
+      const Vec3 moved = world[after].position[ball] - world[before].position[ball];
+      const float elapsed = static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
+      planted[i] = world[i].position[ball].y < skeleton.toe_height() + height &&
+                   glm::length(Vec3(moved.x, 0, moved.z)) / elapsed < speed;
+    }
+    close_runs(planted, false, ticks);
+    close_runs(planted, true, ticks);
+    for (std::size_t i = 0; i < count; ++i) {
+      (side == Side::left ? clip.contacts[i].left : clip.contacts[i].right) = planted[i];
+    }
+  }
+}
+
+}  // namespace ringcraft
