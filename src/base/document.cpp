@@ -204,8 +204,8 @@ Result<void> set_value(Document& document, const std::string& assignment) {
   if (steps.size() > kDeepest) {
     return usage_error("--set " + assignment, "", "nested too deeply", "shorten the path");
   }
-  json changed = document.value;
-  json* at = &changed;
+  Document changed = document;
+  json* at = &changed.value;
   std::string pointer;
   for (const std::string& step : steps) {
     at = step.empty() ? nullptr : child_of(*at, step);
@@ -214,13 +214,13 @@ Result<void> set_value(Document& document, const std::string& assignment) {
                          "name keys and array indices that exist, as in fighter.0.horizon_s=2");
     }
     pointer = json_pointer(pointer, step);
-    document.lines.try_emplace(pointer, 0);
+    changed.lines.try_emplace(pointer, 0);
   }
   *at = *value;
-  document.value = std::move(changed);
   // Lines of what stood below are gone; 0 says that the value came from --set.
-  std::erase_if(document.lines, [&](const auto& l) { return l.first.starts_with(pointer + "/"); });
-  document.lines[pointer] = 0;
+  std::erase_if(changed.lines, [&](const auto& l) { return l.first.starts_with(pointer + "/"); });
+  changed.lines[pointer] = 0;
+  document = std::move(changed);
   return {};
 }
 

@@ -4,7 +4,8 @@
 
 namespace ringcraft {
 
-Random::Random(std::uint64_t seed, std::uint64_t stream) : state_(0), increment_((stream << 1) | 1) {
+Random::Random(std::uint64_t seed, std::uint64_t stream)
+    : state_(0), increment_((stream << 1) | 1) {
   bits();
   state_ += seed;
   bits();
@@ -18,12 +19,17 @@ std::uint32_t Random::bits() {
   return (xorshifted >> rotation) | (xorshifted << ((32 - rotation) & 31));
 }
 
-float Random::uniform() { return static_cast<float>(bits() >> 8) * 0x1.0p-24f; }
+float Random::uniform() {
+  return static_cast<float>(bits() >> 8) * 0x1.0p-24f;
+}
 
-float Random::uniform(float low, float high) { return low + (high - low) * uniform(); }
+float Random::uniform(float low, float high) {
+  return low + (high - low) * uniform();
+}
 
 int Random::below(int count) {
-  return static_cast<int>((static_cast<std::uint64_t>(bits()) * static_cast<std::uint64_t>(count)) >> 32);
+  return static_cast<int>(
+      (static_cast<std::uint64_t>(bits()) * static_cast<std::uint64_t>(count)) >> 32);
 }
 
 float Random::normal() {

@@ -11,10 +11,10 @@ class Random {
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
   std::uint32_t bits();
-  float uniform();                     // [0, 1)
+  float uniform();  // [0, 1)
   float uniform(float low, float high);
-  int below(int count);                // 0 .. count-1; count > 0
-  float normal();                      // mean 0, standard deviation 1 (sum of 12 uniforms: no libm)
+  int below(int count);  // 0 .. count-1; count > 0
+  float normal();        // mean 0, standard deviation 1 (sum of 12 uniforms: no libm)
 
  private:
   std::uint64_t state_;

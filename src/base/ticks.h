@@ -11,9 +11,13 @@ using Tick = std::int32_t;
 inline constexpr Tick kTicksPerSecond = 120;
 inline constexpr float kTickSeconds = 1.0f / 120.0f;
 
-inline constexpr double seconds(Tick ticks) { return static_cast<double>(ticks) / kTicksPerSecond; }
+inline constexpr double seconds(Tick ticks) {
+  return static_cast<double>(ticks) / kTicksPerSecond;
+}
 
 // Nearest tick.
-inline Tick ticks(double seconds) { return static_cast<Tick>(std::lround(seconds * kTicksPerSecond)); }
+inline Tick ticks(double seconds) {
+  return static_cast<Tick>(std::lround(seconds * kTicksPerSecond));
+}
 
 }  // namespace ringcraft

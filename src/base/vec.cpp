@@ -19,7 +19,9 @@ float yaw_of(Vec3 direction) {
   return std::atan2(direction.x, direction.z);
 }
 
-float heading_of(Quat rotation) { return yaw_of(rotation * kForward); }
+float heading_of(Quat rotation) {
+  return yaw_of(rotation * kForward);
+}
 
 Vec3 normalized_or(Vec3 v, Vec3 fallback) {
   const float length = glm::length(v);
@@ -52,6 +54,8 @@ Quat from_rotation_vector(Vec3 v) {
   return glm::angleAxis(angle, v / angle);
 }
 
-Quat in_hemisphere_of(Quat q, Quat reference) { return glm::dot(q, reference) < 0 ? -q : q; }
+Quat in_hemisphere_of(Quat q, Quat reference) {
+  return glm::dot(q, reference) < 0 ? -q : q;
+}
 
 }  // namespace ringcraft

@@ -26,8 +26,12 @@ inline const Vec3 kLeft{1, 0, 0};
 inline const Vec3 kUp{0, 1, 0};
 inline const Vec3 kForward{0, 0, 1};
 
-inline constexpr float radians(float degrees) { return degrees * (kPi / 180.0f); }
-inline constexpr float degrees(float radians) { return radians * (180.0f / kPi); }
+inline constexpr float radians(float degrees) {
+  return degrees * (kPi / 180.0f);
+}
+inline constexpr float degrees(float radians) {
+  return radians * (180.0f / kPi);
+}
 
 // The angle in (-pi, pi] that points the same way.
 float wrapped_angle(float radians);

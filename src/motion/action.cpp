@@ -6,8 +6,8 @@ namespace ringcraft {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kKinds = {"attack",   "defense", "transition", "combination",
-                                                    "response", "get-up",  "idle"};
+constexpr std::array<std::string_view, 7> kKinds = {
+    "attack", "defense", "transition", "combination", "response", "get-up", "idle"};
 constexpr std::array<std::string_view, 3> kZones = {"head", "body", "leg"};
 constexpr std::array<std::string_view, 6> kStrikes = {"straight",   "hook",       "uppercut",
                                                       "front_kick", "roundhouse", "side_kick"};
@@ -49,13 +49,27 @@ std::string mirrored_name(const std::string& name) {
 
 }  // namespace
 
-std::string_view name_of(Kind kind) { return name_in(kKinds, kind); }
-std::string_view name_of(TargetZone zone) { return name_in(kZones, zone); }
-std::string_view name_of(StrikeKind kind) { return name_in(kStrikes, kind); }
-std::string_view name_of(DefenseKind kind) { return name_in(kDefenses, kind); }
-std::string_view name_of(ResponseKind kind) { return name_in(kResponses, kind); }
-std::string_view name_of(Lying lying) { return name_in(kLyings, lying); }
-std::optional<Kind> kind_from_name(std::string_view name) { return value_in<Kind>(kKinds, name); }
+std::string_view name_of(Kind kind) {
+  return name_in(kKinds, kind);
+}
+std::string_view name_of(TargetZone zone) {
+  return name_in(kZones, zone);
+}
+std::string_view name_of(StrikeKind kind) {
+  return name_in(kStrikes, kind);
+}
+std::string_view name_of(DefenseKind kind) {
+  return name_in(kDefenses, kind);
+}
+std::string_view name_of(ResponseKind kind) {
+  return name_in(kResponses, kind);
+}
+std::string_view name_of(Lying lying) {
+  return name_in(kLyings, lying);
+}
+std::optional<Kind> kind_from_name(std::string_view name) {
+  return value_in<Kind>(kKinds, name);
+}
 std::optional<TargetZone> zone_from_name(std::string_view name) {
   return value_in<TargetZone>(kZones, name);
 }
@@ -68,7 +82,9 @@ std::optional<DefenseKind> defense_kind_from_name(std::string_view name) {
 std::optional<ResponseKind> response_kind_from_name(std::string_view name) {
   return value_in<ResponseKind>(kResponses, name);
 }
-std::optional<Lying> lying_from_name(std::string_view name) { return value_in<Lying>(kLyings, name); }
+std::optional<Lying> lying_from_name(std::string_view name) {
+  return value_in<Lying>(kLyings, name);
+}
 
 Action mirrored(const Action& action) {
   Action result = action;

@@ -14,25 +14,32 @@ enum class Kind : std::uint8_t { attack, defense, transition, combination, respo
 
 enum class TargetZone : std::uint8_t { head, body, leg };
 
-enum class StrikeKind : std::uint8_t { straight, hook, uppercut, front_kick, roundhouse, side_kick };
+enum class StrikeKind : std::uint8_t {
+  straight,
+  hook,
+  uppercut,
+  front_kick,
+  roundhouse,
+  side_kick
+};
 
 // One blow of an attack. Ticks count from the action's start.
 struct Strike {
   StrikeKind kind = StrikeKind::straight;
   Joint joint = Joint::left_hand;  // a hand or a foot
   TargetZone zone = TargetZone::head;
-  Tick active_begin = 0;           // first tick at which it can hit
-  Tick active_end = 0;             // first tick at which it no longer can
+  Tick active_begin = 0;  // first tick at which it can hit
+  Tick active_end = 0;    // first tick at which it no longer can
 };
 
 enum class DefenseKind : std::uint8_t { guard, parry, slip, duck, sway, check, step_away };
 
 struct Defense {
   DefenseKind kind = DefenseKind::guard;
-  // Answers one particular attack (slip, parry, duck, sway, check): not offered in the tree while that
-  // attack is younger than 250 ms. Guards and steps away are broad.
+  // Answers one particular attack (slip, parry, duck, sway, check): not offered in the tree while
+  // that attack is younger than 250 ms. Guards and steps away are broad.
   bool particular() const { return kind != DefenseKind::guard && kind != DefenseKind::step_away; }
-  Tick begin = 0, end = 0;         // the ticks over which it protects
+  Tick begin = 0, end = 0;  // the ticks over which it protects
 };
 
 enum class ResponseKind : std::uint8_t { absorb, recovery_steps, knockdown };
@@ -40,8 +47,9 @@ enum class ResponseKind : std::uint8_t { absorb, recovery_steps, knockdown };
 // How a response motion answers: chosen by physics, never by the planner.
 struct Response {
   ResponseKind kind = ResponseKind::absorb;
-  int steps = 0;          // 1..3 for recovery_steps
-  float direction = 0;    // rad off the own facing in which the body goes; 0 fore, +pi/2 to the own left
+  int steps = 0;  // 1..3 for recovery_steps
+  float direction =
+      0;  // rad off the own facing in which the body goes; 0 fore, +pi/2 to the own left
 };
 
 enum class Lying : std::uint8_t { none, back, front, side, seat };
@@ -50,7 +58,7 @@ struct Action {
   std::string name;
   Kind kind = Kind::idle;
   Clip clip;
-  std::vector<Strike> strikes;       // attacks and combinations; empty otherwise
+  std::vector<Strike> strikes;  // attacks and combinations; empty otherwise
   std::optional<Defense> defense;
   std::optional<Response> response;
   Lying starts_lying = Lying::none;  // get-ups
@@ -74,7 +82,8 @@ std::optional<DefenseKind> defense_kind_from_name(std::string_view name);
 std::optional<ResponseKind> response_kind_from_name(std::string_view name);
 std::optional<Lying> lying_from_name(std::string_view name);
 
-// The same action for the other hand: "jab_left" becomes "jab_right", clip, strikes and response swap.
+// The same action for the other hand: "jab_left" becomes "jab_right", clip, strikes and response
+// swap.
 Action mirrored(const Action& action);
 
 }  // namespace ringcraft

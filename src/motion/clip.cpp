@@ -15,7 +15,9 @@ const T& clamped(const std::vector<T>& values, Tick tick) {
   return values[static_cast<std::size_t>(std::clamp<Tick>(tick, 0, last))];
 }
 
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 bool finite(Quat q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
 }
@@ -37,9 +39,15 @@ void close_runs(std::vector<bool>& flags, bool value, Tick ticks) {
 
 }  // namespace
 
-const Pose& Clip::at(Tick tick) const { return clamped(frames, tick); }
-const Placement& Clip::root_at(Tick tick) const { return clamped(root, tick); }
-FootContacts Clip::contacts_at(Tick tick) const { return clamped(contacts, tick); }
+const Pose& Clip::at(Tick tick) const {
+  return clamped(frames, tick);
+}
+const Placement& Clip::root_at(Tick tick) const {
+  return clamped(root, tick);
+}
+FootContacts Clip::contacts_at(Tick tick) const {
+  return clamped(contacts, tick);
+}
 
 std::vector<std::string> faults(const Clip& clip) {
   std::vector<std::string> found;
@@ -62,8 +70,8 @@ std::vector<std::string> faults(const Clip& clip) {
       } else if (std::abs(glm::length(q) - 1) > 1e-3f) {
         found.push_back(fmt::format("rule 5: frame {}: {} not unit", i, vrm_name(joint_at(j))));
       } else if (i > 0 && glm::dot(q, clip.frames[i - 1].rotation[j]) < 0) {
-        found.push_back(fmt::format("rule 5: frame {}: {} changes hemisphere", i,
-                                    vrm_name(joint_at(j))));
+        found.push_back(
+            fmt::format("rule 5: frame {}: {} changes hemisphere", i, vrm_name(joint_at(j))));
       }
     }
     if (found.size() > 8) break;
@@ -118,7 +126,8 @@ void label_contacts(const Skeleton& skeleton, Clip& clip, float height, float sp
       const std::size_t before = i >= 2 ? i - 2 : 0;
       const std::size_t after = std::min(i + 2, count - 1);
       const Vec3 moved = world[after].position[ball] - world[before].position[ball];
-      const float elapsed = static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
+      const float elapsed =
+          static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
       planted[i] = world[i].position[ball].y < skeleton.toe_height() + height &&
                    glm::length(Vec3(moved.x, 0, moved.z)) / elapsed < speed;
     }

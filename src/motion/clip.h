@@ -2,8 +2,8 @@
 // A clip: poses at every tick (120 Hz), in action space.
 //
 // Action space: the origin is the ground under the fighter where the action starts, +Z the way the
-// fighter faces (where the opponent stands), +X the own left. Root motion is part of the frames; the
-// root track says where the placement is at each frame, relative to the start.
+// fighter faces (where the opponent stands), +X the own left. Root motion is part of the frames;
+// the root track says where the placement is at each frame, relative to the start.
 
 #include <string>
 #include <vector>
@@ -20,18 +20,20 @@ struct FootContacts {
   bool operator==(const FootContacts&) const = default;
 };
 
-// Rules: 1 at least two frames; 2 frames, root and contacts have one length; 3 root[0] is the identity
-// placement; 4 every number is finite; 5 rotations are unit and neighbours share a hemisphere.
+// Rules: 1 at least two frames; 2 frames, root and contacts have one length; 3 root[0] is the
+// identity placement; 4 every number is finite; 5 rotations are unit and neighbours share a
+// hemisphere.
 struct Clip {
   std::vector<Pose> frames;  // action space, one a tick
   std::vector<Placement> root;
   std::vector<FootContacts> contacts;
 
-  // Ticks from the first frame to the last: an action of this clip ends `length()` ticks after its start.
+  // Ticks from the first frame to the last: an action of this clip ends `length()` ticks after its
+  // start.
   Tick length() const { return static_cast<Tick>(frames.size()) - 1; }
-  const Pose& at(Tick tick) const;             // clamped to the ends
-  const Placement& root_at(Tick tick) const;   // clamped to the ends
-  FootContacts contacts_at(Tick tick) const;   // clamped to the ends
+  const Pose& at(Tick tick) const;            // clamped to the ends
+  const Placement& root_at(Tick tick) const;  // clamped to the ends
+  FootContacts contacts_at(Tick tick) const;  // clamped to the ends
 };
 
 // Breaks of the rules above, as text; empty when the clip is good.
@@ -47,7 +49,7 @@ void unroll_rotations(Clip& clip);
 
 // Foot contacts from heights and speeds: ankle and toes near their standing height and slower than
 // `speed` m/s over the ground; gaps and blips shorter than `ticks` are closed.
-void label_contacts(const Skeleton& skeleton, Clip& clip, float height = 0.045f, float speed = 0.35f,
-                    Tick ticks = 6);
+void label_contacts(const Skeleton& skeleton, Clip& clip, float height = 0.045f,
+                    float speed = 0.35f, Tick ticks = 6);
 
 }  // namespace ringcraft

@@ -93,9 +93,9 @@ Vec3 present_pole(const WorldPose& world, const Limb& limb, Vec3 fallback) {
   const Vec3 pole = middle - line * glm::dot(middle, line);
   // A nearly straight limb's bend says little: lean on the fallback the straighter it is.
   const float trust = std::min(1.0f, glm::length(pole) / 0.03f);
-  return normalized_or(normalized_or(pole, fallback) * trust +
-                           normalized_or(fallback, pole) * (1 - trust),
-                       fallback);
+  return normalized_or(
+      normalized_or(pole, fallback) * trust + normalized_or(fallback, pole) * (1 - trust),
+      fallback);
 }
 
 }  // namespace ringcraft

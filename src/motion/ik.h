@@ -6,15 +6,15 @@
 namespace ringcraft {
 
 struct LimbTarget {
-  Vec3 position{};              // where the end joint (wrist, ankle) goes, m
-  Vec3 pole{};                  // direction the middle joint (elbow, knee) points, from the limb's line
-  float soft_share = 0.985f;    // of the limb's length: beyond it the reach is eased, so that no
-                                // joint pops when the target moves out of reach
+  Vec3 position{};  // where the end joint (wrist, ankle) goes, m
+  Vec3 pole{};      // direction the middle joint (elbow, knee) points, from the limb's line
+  float soft_share = 0.985f;  // of the limb's length: beyond it the reach is eased, so that no
+                              // joint pops when the target moves out of reach
 };
 
-// Turns the limb's root and middle joints so that its end reaches the target; the end joint keeps its
-// world rotation. Targets out of reach are approached along the line. The middle joint bends about one
-// axis only (x of the lower leg, y of the lower arm in the rest pose), as a hinge does.
+// Turns the limb's root and middle joints so that its end reaches the target; the end joint keeps
+// its world rotation. Targets out of reach are approached along the line. The middle joint bends
+// about one axis only (x of the lower leg, y of the lower arm in the rest pose), as a hinge does.
 void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& target, Pose& pose);
 
 // Sets the world rotation of one joint.

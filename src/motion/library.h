@@ -11,7 +11,8 @@ namespace ringcraft {
 class MotionLibrary {
  public:
   // Drops what is not strongly connected; `dropped()` says what and why.
-  MotionLibrary(std::string name, std::vector<Action> actions, const StateMachineSettings& settings = {});
+  MotionLibrary(std::string name, std::vector<Action> actions,
+                const StateMachineSettings& settings = {});
 
   const std::string& name() const { return name_; }
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight

@@ -13,7 +13,9 @@ constexpr std::array<std::string_view, kJointCount> kVrmNames = {
 
 }  // namespace
 
-std::string_view vrm_name(Joint joint) { return kVrmNames[index(joint)]; }
+std::string_view vrm_name(Joint joint) {
+  return kVrmNames[index(joint)];
+}
 
 std::optional<Joint> joint_from_vrm_name(std::string_view name) {
   for (std::size_t i = 0; i < kJointCount; ++i) {
@@ -36,11 +38,14 @@ float Skeleton::ankle_height() const {
          offset[index(Joint::left_lower_leg)].y + offset[index(Joint::left_foot)].y;
 }
 
-float Skeleton::toe_height() const { return ankle_height() + offset[index(Joint::left_toes)].y; }
+float Skeleton::toe_height() const {
+  return ankle_height() + offset[index(Joint::left_toes)].y;
+}
 
 Skeleton canonical_skeleton(float height) {
-  // Fractions of height. Legs: de Leva 1996 (thigh 0.2425, shank 0.2493, ankle 0.039), which puts the
-  // mid-hips at 0.531. Arms: 0.1618 and 0.1545. The neck base stands at 0.82, the skull's base at 0.87.
+  // Fractions of height. Legs: de Leva 1996 (thigh 0.2425, shank 0.2493, ankle 0.039), which puts
+  // the mid-hips at 0.531. Arms: 0.1618 and 0.1545. The neck base stands at 0.82, the skull's base
+  // at 0.87.
   Skeleton skeleton;
   skeleton.height = height;
   const auto set = [&](Joint joint, Vec3 fraction) {
@@ -55,7 +60,8 @@ Skeleton canonical_skeleton(float height) {
   for (const Side side : {Side::left, Side::right}) {
     const float out = side == Side::left ? 1.0f : -1.0f;
     const Limb arm_joints = arm(side);
-    set(side == Side::left ? Joint::left_shoulder : Joint::right_shoulder, {out * 0.018f, 0.066f, 0});
+    set(side == Side::left ? Joint::left_shoulder : Joint::right_shoulder,
+        {out * 0.018f, 0.066f, 0});
     set(arm_joints.root, {out * 0.092f, 0.010f, 0});
     set(arm_joints.middle, {out * 0.1618f, 0, 0});
     set(arm_joints.end, {out * 0.1545f, 0, 0});

@@ -2,9 +2,9 @@
 // The action state machine: which action can follow which, and how the second is placed.
 //
 // An edge stands only where the end of one action is near the start of another: the point clouds of
-// joints over a window of 5 ticks, aligned on the floor in closed form (Kovar, Gleicher, Pighin 2002,
-// eq. 2-4), differ by less than a threshold. Where there is no edge, the shortest path leads over
-// transitions. Stitching is by inertialization (playback.h), so an edge itself takes no time.
+// joints over a window of 5 ticks, aligned on the floor in closed form (Kovar, Gleicher, Pighin
+// 2002, eq. 2-4), differ by less than a threshold. Where there is no edge, the shortest path leads
+// over transitions. Stitching is by inertialization (playback.h), so an edge itself takes no time.
 
 #include <optional>
 #include <vector>
@@ -43,13 +43,13 @@ class StateMachine {
   StateMachine(const Skeleton& skeleton, const std::vector<Action>& actions,
                const StateMachineSettings& settings);
 
-  // Edges out of the end of `from`, nearest first. Responses and falls are entered by physics only and
-  // never stand as a target here.
+  // Edges out of the end of `from`, nearest first. Responses and falls are entered by physics only
+  // and never stand as a target here.
   const std::vector<Edge>& edges(ActionId from) const { return edges_[from.at()]; }
   // The direct edge, if there is one.
   const Edge* edge(ActionId from, ActionId to) const;
-  // Shortest path by ticks, precomputed to the starts of all actions that can be launched. Never null
-  // for actions of a library that was built: the machine is strongly connected.
+  // Shortest path by ticks, precomputed to the starts of all actions that can be launched. Never
+  // null for actions of a library that was built: the machine is strongly connected.
   const Path* path(ActionId from, ActionId to) const;
 
  private:
@@ -57,8 +57,9 @@ class StateMachine {
   std::vector<std::vector<std::optional<Path>>> paths_;
 };
 
-// Actions that are not in the largest strongly connected component, by index; the builder drops them
-// and says so. Responses and knockdowns count as reachable (physics enters them), they must lead back.
+// Actions that are not in the largest strongly connected component, by index; the builder drops
+// them and says so. Responses and knockdowns count as reachable (physics enters them), they must
+// lead back.
 std::vector<ActionId> unconnected(const Skeleton& skeleton, const std::vector<Action>& actions,
                                   const StateMachineSettings& settings);
 

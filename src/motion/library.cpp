@@ -1,0 +1,65 @@
+#include "motion/library.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+
+namespace ringcraft {
+
+namespace {
+
+std::uint64_t hash_of(const std::vector<Action>& actions) {
+  Hasher hasher;
+  for (const Action& action : actions) {
+    hasher.add(action.name).add(action.kind).add(action.length());
+    for (const Strike& strike : action.strikes) {
+      hasher.add(strike.joint).add(strike.active_begin).add(strike.active_end).add(strike.zone);
+    }
+    for (const Pose& pose : action.clip.frames) {
+      hasher.add(pose.hips.x).add(pose.hips.y).add(pose.hips.z);
+      for (const Quat& q : pose.rotation) hasher.add(q.w).add(q.x).add(q.y).add(q.z);
+    }
+  }
+  return hasher.digest();
+}
+
+}  // namespace
+
+MotionLibrary::MotionLibrary(std::string name, std::vector<Action> actions,
+                             const StateMachineSettings& settings)
+    : name_(std::move(name)), skeleton_(canonical_skeleton()), actions_(std::move(actions)) {
+  // Dropping one action can cut another's only way, so repeat until nothing falls.
+  for (auto loose = unconnected(skeleton_, actions_, settings); !loose.empty();
+       loose = unconnected(skeleton_, actions_, settings)) {
+    for (auto id = loose.rbegin(); id != loose.rend(); ++id) {
+      dropped_.push_back(fmt::format("{} ({}): no way back to the others within the threshold",
+                                     action(*id).name, action(*id).source));
+      actions_.erase(actions_.begin() + id->value);
+    }
+  }
+  machine_ = StateMachine(skeleton_, actions_, settings);
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    const Kind kind = actions_[i].kind;
+    (kind == Kind::response ? responses_
+     : kind == Kind::get_up ? get_ups_
+                            : launchable_)
+        .emplace_back(i);
+  }
+  hash_ = hash_of(actions_);
+}
+
+ActionId MotionLibrary::find(std::string_view name) const {
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    if (actions_[i].name == name) return ActionId(i);
+  }
+  return {};
+}
+
+std::size_t MotionLibrary::count(Kind kind) const {
+  return static_cast<std::size_t>(std::count_if(
+      actions_.begin(), actions_.end(), [&](const Action& action) { return action.kind == kind; }));
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,252 @@
+#include "motion/state_machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/strong_components.hpp>
+
+namespace ringcraft {
+
+namespace {
+
+constexpr float kLookAheadSeconds =
+    0.1f;  // the window: where the joints are and where they will be
+
+struct CloudPoint {
+  Vec3 position{};
+  float weight = 1;
+};
+using Cloud = std::vector<CloudPoint>;
+
+float weight_of(Joint joint) {
+  switch (joint) {
+    case Joint::left_foot:
+    case Joint::right_foot:
+    case Joint::left_toes:
+    case Joint::right_toes:
+      return 3.0f;
+    case Joint::hips:
+      return 2.0f;
+    default:
+      return 1.0f;
+  }
+}
+
+// Joints at `tick` and, by their velocity over four ticks, kLookAheadSeconds later, seen from
+// `origin`.
+Cloud cloud_at(const Skeleton& skeleton, const Clip& clip, Tick tick, const Placement& origin) {
+  constexpr Tick kSpan = 4;
+  const Tick early =
+      std::clamp<Tick>(tick - kSpan / 2, 0, std::max<Tick>(0, clip.length() - kSpan));
+  const Tick late = std::min<Tick>(early + kSpan, clip.length());
+  const WorldPose now = world_pose(skeleton, clip.at(tick));
+  const WorldPose before = world_pose(skeleton, clip.at(early));
+  const WorldPose after = world_pose(skeleton, clip.at(late));
+  const float per_look =
+      kLookAheadSeconds / (static_cast<float>(std::max<Tick>(1, late - early)) * kTickSeconds);
+  const Placement back = inverse(origin);
+  Cloud cloud;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const float weight = weight_of(joint_at(i));
+    const Vec3 ahead = (after.position[i] - before.position[i]) * per_look;
+    cloud.push_back({back * now.position[i], weight});
+    cloud.push_back({back * (now.position[i] + ahead), weight * 0.5f});
+  }
+  return cloud;
+}
+
+// Kovar, Gleicher, Pighin 2002, equations 2 to 4: the floor placement that takes `second` onto
+// `first`.
+Alignment align_clouds(const Cloud& first, const Cloud& second) {
+  double weights = 0, x1 = 0, z1 = 0, x2 = 0, z2 = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double w = first[i].weight;
+    weights += w;
+    x1 += w * first[i].position.x;
+    z1 += w * first[i].position.z;
+    x2 += w * second[i].position.x;
+    z2 += w * second[i].position.z;
+  }
+  x1 /= weights, z1 /= weights, x2 /= weights, z2 /= weights;
+  double sine = 0, cosine = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double w = first[i].weight;
+    const double ax = first[i].position.x - x1, az = first[i].position.z - z1;
+    const double bx = second[i].position.x - x2, bz = second[i].position.z - z2;
+    sine += w * (ax * bz - az * bx);
+    cosine += w * (ax * bx + az * bz);
+  }
+  Alignment result;
+  result.placement.yaw = static_cast<float>(std::atan2(sine, cosine));
+  const Vec3 turned =
+      yaw_rotation(result.placement.yaw) * Vec3(static_cast<float>(x2), 0, static_cast<float>(z2));
+  result.placement.x = static_cast<float>(x1) - turned.x;
+  result.placement.z = static_cast<float>(z1) - turned.z;
+  double squares = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    squares +=
+        first[i].weight * glm::distance2(first[i].position, result.placement * second[i].position);
+  }
+  result.distance = static_cast<float>(std::sqrt(squares / weights));
+  return result;
+}
+
+Cloud start_cloud(const Skeleton& skeleton, const Clip& clip) {
+  return cloud_at(skeleton, clip, 0, clip.root_at(0));
+}
+Cloud end_cloud(const Skeleton& skeleton, const Clip& clip) {
+  return cloud_at(skeleton, clip, clip.length(), clip.root_at(clip.length()));
+}
+
+bool launchable(const Action& action) {
+  return action.kind != Kind::response && action.kind != Kind::get_up;
+}
+
+bool edge_allowed(const Action& from, const Action& to, float distance,
+                  const StateMachineSettings& settings) {
+  if (from.ends_lying != Lying::none) {  // only a get-up follows a fall, whatever way it lies
+    return to.kind == Kind::get_up;
+  }
+  if (!launchable(to)) return false;
+  return distance <= (launchable(from) ? settings.threshold : settings.response_threshold);
+}
+
+std::vector<std::vector<Edge>> find_edges(const Skeleton& skeleton,
+                                          const std::vector<Action>& actions,
+                                          const StateMachineSettings& settings) {
+  std::vector<Cloud> starts, ends;
+  for (const Action& action : actions) {
+    starts.push_back(start_cloud(skeleton, action.clip));
+    ends.push_back(end_cloud(skeleton, action.clip));
+  }
+  std::vector<std::vector<Edge>> edges(actions.size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    for (std::size_t j = 0; j < actions.size(); ++j) {
+      const Alignment alignment = align_clouds(ends[i], starts[j]);
+      if (edge_allowed(actions[i], actions[j], alignment.distance, settings)) {
+        edges[i].push_back({ActionId(j), alignment});
+      }
+    }
+    std::stable_sort(edges[i].begin(), edges[i].end(), [](const Edge& a, const Edge& b) {
+      return a.alignment.distance < b.alignment.distance;
+    });
+  }
+  return edges;
+}
+
+// What a path may lead over: motion that asks nothing of the opponent.
+bool connects(const Action& action) {
+  return action.kind == Kind::transition || action.kind == Kind::idle;
+}
+
+// Dijkstra from the end of `from`; ties go to the lower index.
+std::vector<std::optional<Path>> paths_from(ActionId from, const std::vector<Action>& actions,
+                                            const std::vector<std::vector<Edge>>& edges) {
+  constexpr Tick kFar = std::numeric_limits<Tick>::max();
+  std::vector<Tick> cost(actions.size(), kFar);  // ticks until the action can start
+  std::vector<ActionId> before(actions.size());
+  using Entry = std::pair<Tick, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  const auto relax = [&](ActionId over, Tick ticks) {
+    for (const Edge& edge : edges[over.at()]) {
+      if (ticks < cost[edge.to.at()]) {
+        cost[edge.to.at()] = ticks;
+        before[edge.to.at()] = over;
+        open.emplace(ticks, edge.to.value);
+      }
+    }
+  };
+  relax(from, 0);
+  while (!open.empty()) {
+    const auto [ticks, value] = open.top();
+    open.pop();
+    const ActionId at(value);
+    if (ticks > cost[at.at()] || !connects(actions[at.at()]) || at == from) continue;
+    relax(at, ticks + actions[at.at()].length());
+  }
+  std::vector<std::optional<Path>> paths(actions.size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (cost[i] == kFar) continue;
+    Path path;
+    path.ticks = cost[i];
+    for (ActionId over = before[i]; over != from; over = before[over.at()])
+      path.via.push_back(over);
+    std::reverse(path.via.begin(), path.via.end());
+    paths[i] = std::move(path);
+  }
+  return paths;
+}
+
+}  // namespace
+
+Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& second) {
+  return align_clouds(end_cloud(skeleton, first), start_cloud(skeleton, second));
+}
+
+StateMachine::StateMachine(const Skeleton& skeleton, const std::vector<Action>& actions,
+                           const StateMachineSettings& settings)
+    : edges_(find_edges(skeleton, actions, settings)) {
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    paths_.push_back(paths_from(ActionId(i), actions, edges_));
+  }
+}
+
+const Edge* StateMachine::edge(ActionId from, ActionId to) const {
+  for (const Edge& edge : edges_[from.at()]) {
+    if (edge.to == to) return &edge;
+  }
+  return nullptr;
+}
+
+const Path* StateMachine::path(ActionId from, ActionId to) const {
+  const auto& path = paths_[from.at()][to.at()];
+  return path ? &*path : nullptr;
+}
+
+std::vector<ActionId> unconnected(const Skeleton& skeleton, const std::vector<Action>& actions,
+                                  const StateMachineSettings& settings) {
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+  const auto edges = find_edges(skeleton, actions, settings);
+  // 1. The largest strongly connected component of what can be launched. Paths lead only over
+  //    transitions and idles, so only their out-edges count twice; every action's own out-edges
+  //    count.
+  Graph graph(actions.size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    for (const Edge& edge : edges[i]) {
+      if (launchable(actions[i]) && launchable(actions[edge.to.at()])) {
+        boost::add_edge(i, edge.to.at(), graph);
+      }
+    }
+  }
+  std::vector<int> component(actions.size());
+  const int count = boost::strong_components(graph, component.data());
+  std::vector<int> size(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (launchable(actions[i])) ++size[static_cast<std::size_t>(component[i])];
+  }
+  const auto largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  std::vector<bool> kept(actions.size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    kept[i] = launchable(actions[i]) && component[i] == largest;
+  }
+  // 2. Get-ups must lead into it, responses too; falls lead to get-ups.
+  const auto leads_into = [&](std::size_t i) {
+    return std::any_of(edges[i].begin(), edges[i].end(),
+                       [&](const Edge& e) { return kept[e.to.at()]; });
+  };
+  for (const Kind kind : {Kind::get_up, Kind::response}) {
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      if (actions[i].kind == kind) kept[i] = leads_into(i);
+    }
+  }
+  std::vector<ActionId> dropped;
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (!kept[i]) dropped.emplace_back(i);
+  }
+  return dropped;
+}
+
+}  // namespace ringcraft
