@@ -13,11 +13,11 @@ namespace ringcraft {
 // An action in flight. Its clip is shown at `placement_at`; a planner knows no more of motion.
 struct Launch {
   ActionId action;
-  Tick start = 0;       // tick of the clip's first frame
-  Tick end = 0;         // tick at which the fighter acts again; earlier than the clip's end when cut
+  Tick start = 0;  // tick of the clip's first frame
+  Tick end = 0;    // tick at which the fighter acts again; earlier than the clip's end when cut
   Placement placement;  // of action space, world
-  float aim = 0;        // rad: turn toward the opponent, eased in over the first half of the startup
-  bool forced = false;  // a response or a get-up: not chosen
+  float aim = 0;  // rad: turn toward the opponent, eased in over the first half of the startup
+  bool forced = false;     // a response or a get-up: not chosen
   std::uint8_t spent = 0;  // bit i: strike i has hit, was blocked or was evaded
 
   bool operator==(const Launch&) const = default;
@@ -42,31 +42,53 @@ struct FightState {
   std::uint64_t hash() const;
 };
 
-// Where action space lies in the world at `tick`: the launch's placement turned by the share of the aim
-// that has been eased in.
+// Ground position scaled for a body of another height; the yaw stays.
+Placement scaled(const Placement& placement, float factor);
+
+// Share of the aim that is eased in `age` ticks after the launch: 0 at the start, 1 from half the
+// startup of an attack (half the clip of anything else) on.
+float aim_share(const Action& action, Tick age);
+
+// Where action space lies in the world at `tick`: the launch's placement turned by the share of the
+// aim that has been eased in.
 Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick tick);
 
-// The fighter's root placement in the world at `tick` (ground position and facing). `scale`: the body's
-// height over kCanonicalHeight.
+// The fighter's root placement in the world at `tick` (ground position and facing). `scale`: the
+// body's height over kCanonicalHeight.
 Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale);
 
 // The clip's frame in the world at `tick`, for a body of that scale.
 Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale);
 
-// The launch of `next` at the end of `last`, by the state machine's edge, aimed at `target`: the aim is
-// the bearing of the target, clamped to `most_aim`. The edge must exist.
-Launch following(const MotionLibrary& library, const Launch& last, ActionId next, Tick start, Vec3 target,
-                 float scale, float most_aim);
+// The turn that aims an action at `target`, rad, clamped to `most_aim`: an attack sends its blow
+// there, any other action ends facing there.
+float aim_at(const Action& action, const Placement& placement, Vec3 target, float scale,
+             float most_aim);
 
-// The launch of a response at tick `start`, from where the cut action stands.
-Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response, Tick start,
-                       float scale);
+// The launch of `next` at the end of `last`, by the state machine's edge, aimed at `target` by
+// aim_at. The edge must exist.
+Launch following(const MotionLibrary& library, const Launch& last, ActionId next, Tick start,
+                 Vec3 target, float scale, float most_aim);
 
-// Who acts next: the fighter whose action ends first; at equal ends the one that was expanded second at
-// the last tie, then the lower index.
+// How long a fallen body lies before it gets up: the ragdoll is at rest by then.
+inline constexpr Tick kLyingTicks = 100;
+
+// The launch of a response at tick `start`, from where the cut action stands. A knockdown lasts until the
+// get-up begins.
+Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
+                       Tick start, float scale);
+
+// The launch of a get-up at tick `start`, from where the fallen body lies: by the state machine's
+// edge where there is one, else from its root.
+Launch forced_get_up(const MotionLibrary& library, const Launch& fallen, ActionId get_up,
+                     Tick start, float scale);
+
+// Who acts next: the fighter whose action ends first; at equal ends the one that was expanded
+// second at the last tie, then the lower index.
 FighterId next_to_act(const FightState& state);
 
-// Marks who went first at a tie, so that the other goes first at the next one.
+// Marks who went first at a tie, so that the other goes first at the next one. Call it while the
+// fighter's last action is still in the state, before the new launch replaces it.
 void note_expanded(FightState& state, FighterId expanded);
 
 }  // namespace ringcraft

@@ -17,12 +17,19 @@ struct Segment {
 
 struct FighterTrack {
   std::vector<Segment> segments;
-  std::vector<Pose> frames;             // shown poses in the world, one a tick from tick 0
-  std::vector<FootContacts> contacts;   // of the shown motion, one a tick
+  std::vector<Pose> frames;            // shown poses in the world, one a tick from tick 0
+  std::vector<FootContacts> contacts;  // of the shown motion, one a tick
 };
 
 enum class EventType : std::uint8_t {
-  decision, strike, hit, block, miss, response, knockdown, getup
+  decision,
+  strike,
+  hit,
+  block,
+  miss,
+  response,
+  knockdown,
+  getup
 };
 std::string_view name_of(EventType type);
 
@@ -34,8 +41,9 @@ struct Line {
 };
 
 struct DecisionRecord {
-  std::vector<Line> lines;           // best first
-  std::int32_t chosen = 0;           // index in lines
+  std::vector<Line> lines;  // best first
+  std::int32_t chosen = 0;  // index in lines
+  Tick horizon = 0;         // ticks looked ahead: less than asked for under a node limit
   std::uint64_t nodes = 0, leaves = 0, forced_nodes = 0;
   std::uint64_t pruned_unanswered_hit = 0, pruned_back_turned = 0, pruned_penetration = 0,
                 pruned_candidates = 0;
@@ -45,28 +53,28 @@ struct DecisionRecord {
 struct Event {
   Tick tick = 0;
   EventType type = EventType::decision;
-  FighterId who;               // the acting fighter: attacker, or the one who responds
-  FighterId whom;              // the other, where there is one
-  std::string action;          // the action's name
-  std::string part;            // struck body part
+  FighterId who;       // the acting fighter: attacker, or the one who responds
+  FighterId whom;      // the other, where there is one
+  std::string action;  // the action's name
+  std::string part;    // struck body part
   StrikeKind strike = StrikeKind::straight;
-  Vec3 point{};                // world, m
-  Vec3 impulse{};              // world, N s
-  float speed = 0;             // closing speed at the contact, m/s
-  float effective_mass = 0;    // of the striking limb along the blow, kg
-  float head_spin = 0;         // change of the head's angular velocity, rad/s
-  float damage = 0;            // points
+  Vec3 point{};              // world, m
+  Vec3 impulse{};            // world, N s
+  float speed = 0;           // closing speed at the contact, m/s
+  float effective_mass = 0;  // of the striking limb along the blow, kg
+  float head_spin = 0;       // change of the head's angular velocity, rad/s
+  float damage = 0;          // points
   ResponseKind response = ResponseKind::absorb;
   int steps = 0;
-  float direction = 0;         // world yaw in which the body goes, rad
+  float direction = 0;  // world yaw in which the body goes, rad
   bool knockout = false;
-  bool foreseen = false;       // the tree foresaw this hit with the same response
+  bool foreseen = false;  // the tree foresaw this hit with the same response
   DecisionRecord decision;
 };
 
 struct Timeline {
   std::vector<FighterTrack> tracks;
-  std::vector<Event> events;   // in order of tick
+  std::vector<Event> events;  // in order of tick
   Tick end = 0;
 
   // Hash of segments and events: two runs are the same fight when it is equal.

@@ -186,6 +186,17 @@ Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& secon
   return align_clouds(end_cloud(skeleton, first), start_cloud(skeleton, second));
 }
 
+Alignment aligned(const Skeleton& skeleton, const Pose& world, const Clip& clip) {
+  const WorldPose from = world_pose(skeleton, world);
+  const WorldPose to = world_pose(skeleton, scaled(clip.at(0), skeleton.height / kCanonicalHeight));
+  Cloud first, second;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    first.push_back({from.position[i], 1});
+    second.push_back({to.position[i], 1});
+  }
+  return align_clouds(first, second);
+}
+
 StateMachine::StateMachine(const Skeleton& skeleton, const std::vector<Action>& actions,
                            const StateMachineSettings& settings)
     : edges_(find_edges(skeleton, actions, settings)) {

@@ -21,6 +21,9 @@ struct Alignment {
 // Best floor-plane alignment of the start of `second` to the end of `first`; feet weigh most.
 Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& second);
 
+// Best floor-plane placement of the start of `clip` on a pose that is given in the world.
+Alignment aligned(const Skeleton& skeleton, const Pose& world, const Clip& clip);
+
 struct Edge {
   ActionId to;
   Alignment alignment;

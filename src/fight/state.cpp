@@ -1,0 +1,138 @@
+#include "fight/state.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "base/hash.h"
+
+namespace ringcraft {
+namespace {
+
+// Ticks over which the aim is eased in: half the startup of an attack, half the clip of the rest.
+Tick aim_ticks(const Action& action) {
+  const Tick whole = action.attacks() ? action.strikes.front().active_begin : action.length();
+  return std::max<Tick>(1, whole / 2);
+}
+
+Launch launched(const MotionLibrary& library, ActionId action, Tick start,
+                const Placement& placement) {
+  Launch launch;
+  launch.action = action;
+  launch.start = start;
+  launch.end = start + library.action(action).length();
+  launch.placement = placement;
+  return launch;
+}
+
+}  // namespace
+
+std::uint64_t FightState::hash() const {
+  Hasher hasher;
+  hasher.add(now).add(fighters.size());
+  for (const FighterState& fighter : fighters) {
+    const Launch& launch = fighter.launch;
+    hasher.add(launch.action.value).add(launch.start).add(launch.end).add(launch.placement.x);
+    hasher.add(launch.placement.z).add(launch.placement.yaw).add(launch.aim).add(launch.forced);
+    hasher.add(launch.spent).add(fighter.health).add(fighter.balance).add(fighter.opponent.value);
+    hasher.add(fighter.last_at_tie);
+  }
+  return hasher.digest();
+}
+
+Placement scaled(const Placement& placement, float factor) {
+  return {placement.x * factor, placement.z * factor, placement.yaw};
+}
+
+float aim_share(const Action& action, Tick age) {
+  const float share =
+      std::clamp(static_cast<float>(age) / static_cast<float>(aim_ticks(action)), 0.0f, 1.0f);
+  return share * share * (3 - 2 * share);
+}
+
+Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick tick) {
+  if (launch.aim == 0) return launch.placement;
+  Placement turned = launch.placement;
+  const float share = aim_share(library.action(launch.action), tick - launch.start);
+  turned.yaw = wrapped_angle(turned.yaw + launch.aim * share);
+  return turned;
+}
+
+Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {
+  const Clip& clip = library.action(launch.action).clip;
+  return placement_at(library, launch, tick) * scaled(clip.root_at(tick - launch.start), scale);
+}
+
+Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {
+  const Clip& clip = library.action(launch.action).clip;
+  return placed(scaled(clip.at(tick - launch.start), scale), placement_at(library, launch, tick));
+}
+
+float aim_at(const Action& action, const Placement& placement, Vec3 target, float scale,
+             float most_aim) {
+  // A blow goes along +Z of its action space; everything else ends facing the target.
+  const Placement faces = action.attacks()
+                              ? placement
+                              : placement * scaled(action.clip.root_at(action.length()), scale);
+  return std::clamp(bearing(faces, target), -most_aim, most_aim);
+}
+
+Launch following(const MotionLibrary& library, const Launch& last, ActionId next, Tick start,
+                 Vec3 target, float scale, float most_aim) {
+  const Edge* edge = library.machine().edge(last.action, next);
+  assert(edge != nullptr);
+  const Placement placement =
+      root_at(library, last, start, scale) * scaled(edge->alignment.placement, scale);
+  Launch launch = launched(library, next, start, placement);
+  launch.aim = aim_at(library.action(next), placement, target, scale, most_aim);
+  return launch;
+}
+
+Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
+                       Tick start, float scale) {
+  Launch launch = launched(library, response, start, root_at(library, cut, start, scale));
+  launch.forced = true;
+  if (library.action(response).ends_lying != Lying::none) launch.end += kLyingTicks;
+  return launch;
+}
+
+Launch forced_get_up(const MotionLibrary& library, const Launch& fallen, ActionId get_up,
+                     Tick start, float scale) {
+  Placement placement = root_at(library, fallen, start, scale);
+  if (const Edge* edge = library.machine().edge(fallen.action, get_up)) {
+    placement = placement * scaled(edge->alignment.placement, scale);
+  }
+  Launch launch = launched(library, get_up, start, placement);
+  launch.forced = true;
+  return launch;
+}
+
+FighterId next_to_act(const FightState& state) {
+  FighterId next;
+  for (std::size_t i = 0; i < state.fighters.size(); ++i) {
+    const FighterState& fighter = state.fighters[i];
+    if (!next.valid()) {
+      next = FighterId(i);
+      continue;
+    }
+    const FighterState& first = state.fighters[next.at()];
+    const bool earlier = fighter.launch.end < first.launch.end;
+    const bool due =
+        fighter.launch.end == first.launch.end && fighter.last_at_tie && !first.last_at_tie;
+    if (earlier || due) next = FighterId(i);
+  }
+  return next;
+}
+
+void note_expanded(FightState& state, FighterId expanded) {
+  const Tick end = state.fighters[expanded.at()].launch.end;
+  bool tie = false;
+  for (std::size_t i = 0; i < state.fighters.size(); ++i) {
+    if (i == expanded.at() || state.fighters[i].launch.end != end) continue;
+    state.fighters[i].last_at_tie = true;
+    tie = true;
+  }
+  if (tie) state.fighters[expanded.at()].last_at_tie = false;
+}
+
+}  // namespace ringcraft

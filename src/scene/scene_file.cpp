@@ -1,0 +1,238 @@
+#include "scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/document.h"
+#include "base/file.h"
+#include "base/schema.h"
+
+namespace ringcraft {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Roots closer than this at the start stand inside one another, m.
+constexpr float kLeastDistance = 0.4f;
+
+// A name without ending and folder is one of `folder` in the assets; anything else is a path.
+bool is_bare(const std::string& name) {
+  return name.find('/') == std::string::npos && fs::path(name).extension() != ".toml";
+}
+
+fs::path file_named(const std::string& name, const std::string& folder,
+                    const fs::path& relative_to) {
+  if (is_bare(name)) return assets_folder() / folder / (name + ".toml");
+  return relative_to / name;
+}
+
+// The names that stand in a folder of the assets, sorted.
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(assets_folder() / folder, failed)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string remedy_for_name(const std::string& name, const std::string& folder) {
+  if (!is_bare(name)) return "check the path";
+  const auto known = names_in(folder);
+  const std::string near = nearest_word(name, known);
+  const std::string all = fmt::format("{}", fmt::join(known, ", "));
+  return near.empty() ? "known names: " + all : "did you mean '" + near + "'? Known names: " + all;
+}
+
+// Linear from sRGB (IEC 61966-2-1).
+float linear(int byte) {
+  const float s = static_cast<float>(byte) / 255.0f;
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
+Vec3 colour_of(const json& value) {
+  if (value.is_array())
+    return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
+  const int rgb = std::stoi(value.get<std::string>().substr(1), nullptr, 16);
+  return {linear(rgb >> 16), linear((rgb >> 8) & 255), linear(rgb & 255)};
+}
+
+// A checked scene document as a SceneFile.
+class Reader {
+ public:
+  explicit Reader(const Document& document) : document_(document), value_(document.value) {}
+
+  Result<SceneFile> read() {
+    scene_.path = document_.path;
+    scene_.name = value_.value("name", document_.path.stem().string());
+    scene_.duration = std::max<Tick>(1, ticks(value_["duration_s"].get<double>()));
+    scene_.seed = value_.value("seed", scene_.seed);
+    scene_.ring = value_.value("ring_m", scene_.ring);
+    read_planner();
+    if (auto done = read_library(); !done) return tl::unexpected(done.error());
+    for (std::size_t i = 0; i < value_["fighter"].size(); ++i) {
+      if (auto done = read_fighter(i); !done) return tl::unexpected(done.error());
+    }
+    if (auto done = settle_placements(); !done) return tl::unexpected(done.error());
+    return std::move(scene_);
+  }
+
+ private:
+  tl::unexpected<Error> fault(const std::string& pointer, std::string what, std::string remedy) {
+    return usage_error(document_.path.string(), document_.place(pointer), std::move(what),
+                       std::move(remedy));
+  }
+
+  // The file that the value at `pointer` names; it must be there.
+  Result<fs::path> named_file(const std::string& pointer, const std::string& name,
+                              const std::string& folder) {
+    const fs::path path = file_named(name, folder, document_.path.parent_path());
+    if (fs::exists(path)) return path;
+    return input_error(document_.path.string(), document_.place(pointer),
+                       "no such file: " + path.lexically_normal().string(),
+                       remedy_for_name(name, folder));
+  }
+
+  Result<void> read_library() {
+    const auto name = value_["library"].get<std::string>();
+    const bool bare = name.find('/') == std::string::npos;
+    scene_.library = bare ? assets_folder() / name : document_.path.parent_path() / name;
+    if (fs::is_directory(scene_.library)) return {};
+    return input_error(document_.path.string(), document_.place("/library"),
+                       "no such folder: " + scene_.library.string(),
+                       "name a motion library's folder under assets, as \"kickboxing\"");
+  }
+
+  void read_planner() {
+    PlanSettings& planner = scene_.planner;
+    planner.ring_half_m = scene_.ring / 2.0;
+    if (!value_.contains("planner")) return;
+    const json& given = value_["planner"];
+    planner.node_limit = given.value("node_limit", planner.node_limit);
+    planner.hits_on_downed = given.value("hits_on_downed", planner.hits_on_downed);
+    if (!given.contains("prune")) return;
+    const json& prune = given["prune"];
+    planner.prune.unanswered_hit = prune.value("unanswered_hit", planner.prune.unanswered_hit);
+    planner.prune.back_turned = prune.value("back_turned", planner.prune.back_turned);
+    planner.prune.penetration = prune.value("penetration", planner.prune.penetration);
+    planner.prune.penetration_m = prune.value("penetration_m", planner.prune.penetration_m);
+  }
+
+  Result<void> read_fighter(std::size_t i) {
+    const json& given = value_["fighter"][i];
+    const std::string at = fmt::format("/fighter/{}", i);
+    SceneFighter fighter;
+    fighter.name = given["name"].get<std::string>();
+    for (const SceneFighter& other : scene_.fighters) {
+      if (other.name == fighter.name) {
+        return fault(at + "/name", "two fighters are called '" + fighter.name + "'",
+                     "give each a name of its own");
+      }
+    }
+    const auto body_file = named_file(at + "/body", given["body"].get<std::string>(), "bodies");
+    if (!body_file) return tl::unexpected(body_file.error());
+    const auto body = read_body(*body_file);
+    if (!body) return tl::unexpected(body.error());
+    fighter.body = *body;
+    const auto style_file = named_file(at + "/style", given["style"].get<std::string>(), "styles");
+    if (!style_file) return tl::unexpected(style_file.error());
+    const auto style = read_style(*style_file);
+    if (!style) return tl::unexpected(style.error());
+    fighter.style = *style;
+    fighter.style.horizon_s = given.value("horizon_s", fighter.style.horizon_s);
+    if (given.value("stance", "orthodox") == "southpaw") fighter.stance = Stance::southpaw;
+    fighter.team = team_of(given, i);
+    fighter.placement.x = given["position"][0].get<float>();
+    fighter.placement.z = given["position"][1].get<float>();
+    fighter.health = static_cast<std::int32_t>(std::lround(given.value("health", 100.0) * 1000.0));
+    if (given.contains("shorts")) fighter.shorts = colour_of(given["shorts"]);
+    if (given.contains("gloves")) fighter.gloves = colour_of(given["gloves"]);
+    if (given.contains("skin")) fighter.skin = colour_of(given["skin"]);
+    scene_.fighters.push_back(std::move(fighter));
+    return {};
+  }
+
+  // The index of the first fighter of the same team; the own one without a team.
+  int team_of(const json& given, std::size_t i) const {
+    const json& all = value_["fighter"];
+    std::size_t first = i;
+    for (std::size_t other = 0; given.contains("team") && other < first; ++other) {
+      if (all[other].value("team", "") == given["team"]) first = other;
+    }
+    return static_cast<int>(first);
+  }
+
+  Result<void> settle_placements() {
+    std::vector<SceneFighter>& fighters = scene_.fighters;
+    for (std::size_t i = 0; i < fighters.size(); ++i) {
+      const std::string at = fmt::format("/fighter/{}", i);
+      const Vec3 here = fighters[i].placement.position();
+      if (std::max(std::abs(here.x), std::abs(here.z)) > scene_.ring / 2) {
+        return fault(at + "/position", "'" + fighters[i].name + "' stands outside the ring",
+                     fmt::format("keep x and z within {} m of the centre", scene_.ring / 2));
+      }
+      const SceneFighter* nearest = nullptr;
+      for (std::size_t j = 0; j < fighters.size(); ++j) {
+        const float distance = glm::distance(here, fighters[j].placement.position());
+        if (j < i && distance < kLeastDistance) {
+          return fault(at + "/position",
+                       "'" + fighters[i].name + "' stands inside '" + fighters[j].name + "'",
+                       fmt::format("leave at least {} m between them", kLeastDistance));
+        }
+        if (fighters[j].team == fighters[i].team) continue;
+        if (!nearest || distance < glm::distance(here, nearest->placement.position())) {
+          nearest = &fighters[j];
+        }
+      }
+      if (nearest == nullptr) {
+        return fault(at + "/team", "all fighters are of one team", "give one of them another team");
+      }
+      fighters[i].placement.yaw = yaw_of(nearest->placement.position() - here);
+      const json& given = value_["fighter"][i];
+      if (given.contains("yaw_deg")) {
+        fighters[i].placement.yaw = wrapped_angle(radians(given["yaw_deg"].get<float>()));
+      }
+    }
+    return {};
+  }
+
+  const Document& document_;
+  const json& value_;
+  SceneFile scene_;
+};
+
+}  // namespace
+
+Result<BodySpec> read_body(const fs::path& path) {
+  const auto document = read_document(path, "body");
+  if (!document) return tl::unexpected(document.error());
+  const json& value = document->value;
+  BodySpec body;
+  body.name = value.value("name", path.stem().string());
+  body.height = value["height_m"].get<float>();
+  body.mass = value["mass_kg"].get<float>();
+  body.sex = value.value("sex", "male") == "female" ? Sex::female : Sex::male;
+  body.toughness = value.value("toughness", body.toughness);
+  return body;
+}
+
+Result<SceneFile> read_scene(const std::string& name_or_path,
+                             const std::vector<std::string>& sets) {
+  const fs::path path = file_named(name_or_path, "scenes", "");
+  if (!fs::exists(path)) {
+    return input_error(name_or_path, "", "no such scene", remedy_for_name(name_or_path, "scenes"));
+  }
+  auto document = read_document(path, "scene");
+  if (!document) return tl::unexpected(document.error());
+  for (const std::string& assignment : sets) {
+    if (auto set = set_value(*document, assignment); !set) return tl::unexpected(set.error());
+  }
+  if (auto valid = checked(*document, "scene"); !valid) return tl::unexpected(valid.error());
+  return Reader(*document).read();
+}
+
+}  // namespace ringcraft

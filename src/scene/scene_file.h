@@ -1,0 +1,51 @@
+#pragma once
+// The scene file: who fights whom, where, how long and with what. Everything it names is read and
+// every placement is settled, so that the fight loop has nothing left to look up.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "motion/placement.h"
+#include "physics/body.h"
+#include "planner/plan.h"
+
+namespace ringcraft {
+
+enum class Stance : std::uint8_t { orthodox, southpaw };
+
+struct SceneFighter {
+  std::string name;
+  BodySpec body;
+  Style style;  // with the scene's horizon where it gives one
+  Stance stance = Stance::orthodox;
+  int team = 0;                   // fighters of one team do not fight each other
+  Placement placement;            // of the root at tick 0, world
+  std::int32_t health = 100'000;  // thousandths of a point
+  Vec3 shorts{0.7f, 0.1f, 0.1f};  // linear RGB, as in FighterLook
+  Vec3 gloves{0.7f, 0.1f, 0.1f};
+  Vec3 skin{0.55f, 0.36f, 0.26f};
+};
+
+struct SceneFile {
+  std::filesystem::path path;
+  std::string name;
+  Tick duration = 0;
+  std::uint64_t seed = 1;
+  std::filesystem::path library;  // folder of the motion library
+  float ring = 6.0f;              // side of the square ring, m
+  std::vector<SceneFighter> fighters;
+  PlanSettings planner;  // ring_half_m is set from `ring`
+};
+
+// Reads a scene: a path, or the bare name of a file in assets/scenes ("duel"). `sets` are
+// assignments as set_value() takes them ("fighter.0.horizon_s=2"), done in order before the check.
+Result<SceneFile> read_scene(const std::string& name_or_path,
+                             const std::vector<std::string>& sets = {});
+
+// Reads a body file (assets/schemas/body.schema.json).
+Result<BodySpec> read_body(const std::filesystem::path& path);
+
+}  // namespace ringcraft

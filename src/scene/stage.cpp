@@ -1,0 +1,91 @@
+#include "scene/stage.h"
+
+#include <utility>
+
+namespace ringcraft {
+
+Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies) : library_(library) {
+  for (BodyModel& body : bodies) {
+    Playback playback(body.skeleton);
+    actors_.push_back({std::move(body), std::move(playback), {}, {}, 0, false, {}, {}});
+  }
+}
+
+Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
+  return pose_at(library_, actor.launch, tick, actor.body.scale);
+}
+
+void Stage::begin(FighterId fighter, const Launch& launch) { begin(fighter, launch, {}); }
+
+void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
+  Actor& actor = actors_[fighter.at()];
+  actor.launch = launch;
+  actor.simulated = std::move(simulated);
+  actor.simulated_from = launch.start + 1;
+  const Action& action = library_.action(launch.action);
+  actor.track.segments.push_back({launch, action.name, action.kind});
+  if (actor.simulated.empty()) {
+    actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
+  }
+}
+
+void Stage::shift(FighterId fighter, Vec3 offset) {
+  Actor& actor = actors_[fighter.at()];
+  actor.launch.placement.x += offset.x;
+  actor.launch.placement.z += offset.z;
+  actor.track.segments.back().launch.placement = actor.launch.placement;
+}
+
+void Stage::show(Tick tick) {
+  for (Actor& actor : actors_) {
+    const Clip& clip = library_.action(actor.launch.action).clip;
+    const auto at = static_cast<std::size_t>(tick - actor.simulated_from);
+    if (at < actor.simulated.size()) {
+      actor.playback.next_simulated(actor.simulated[at]);
+      actor.was_simulated = true;
+    } else {
+      const Pose pose = clip_pose(actor, tick);
+      if (actor.was_simulated && actor.playback.started()) {
+        actor.playback.stitch(pose, clip_pose(actor, tick + 1));
+      }
+      actor.was_simulated = false;
+      actor.playback.next(pose, clip.contacts_at(tick - actor.launch.start));
+    }
+    actor.swept.before = actor.swept.after;
+    actor.swept.after =
+        capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
+    if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
+    actor.track.frames.push_back(actor.playback.shown());
+    actor.track.contacts.push_back(actor.playback.held());
+  }
+}
+
+const Pose& Stage::shown_before(FighterId fighter) const {
+  return actors_[fighter.at()].playback.shown_before();
+}
+
+bool Stage::simulated(FighterId fighter) const { return actors_[fighter.at()].was_simulated; }
+
+std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
+  const Actor& actor = actors_[fighter.at()];
+  const Clip& clip = library_.action(actor.launch.action).clip;
+  Playback ahead = actor.playback;
+  std::vector<Pose> poses{actor.playback.shown()};
+  for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
+    const auto at = static_cast<std::size_t>(next - actor.simulated_from);
+    if (at < actor.simulated.size()) {
+      poses.push_back(actor.simulated[at]);
+    } else {
+      poses.push_back(ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start)));
+    }
+  }
+  return poses;
+}
+
+std::vector<FighterTrack> Stage::take_tracks() {
+  std::vector<FighterTrack> tracks;
+  for (Actor& actor : actors_) tracks.push_back(std::move(actor.track));
+  return tracks;
+}
+
+}  // namespace ringcraft

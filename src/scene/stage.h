@@ -1,0 +1,62 @@
+#pragma once
+// The stage: every fighter's shown motion, tick by tick, and the capsules that touch.
+
+#include <vector>
+
+#include "fight/timeline.h"
+#include "motion/playback.h"
+#include "physics/contact.h"
+
+namespace ringcraft {
+
+class Stage {
+ public:
+  Stage(const MotionLibrary& library, std::vector<BodyModel> bodies);
+
+  std::size_t size() const { return actors_.size(); }
+  const BodyModel& body(FighterId fighter) const { return actors_[fighter.at()].body; }
+
+  // From the next tick on, the fighter's launch is shown, stitched to what is shown now.
+  void begin(FighterId fighter, const Launch& launch);
+
+  // The same for a response: `simulated` poses are shown first, one a tick, then the launch's clip.
+  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated);
+
+  // Moves a fighter's launch on the ground; the feet follow by steps of their own.
+  void shift(FighterId fighter, Vec3 offset);
+
+  // Shows one tick of every fighter and records it.
+  void show(Tick tick);
+
+  const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
+  const Pose& shown(FighterId fighter) const { return actors_[fighter.at()].playback.shown(); }
+  const Pose& shown_before(FighterId fighter) const;
+  FootContacts held(FighterId fighter) const { return actors_[fighter.at()].playback.held(); }
+  bool simulated(FighterId fighter) const;
+  // Capsules now and one tick ago.
+  const SweptBody& swept(FighterId fighter) const { return actors_[fighter.at()].swept; }
+
+  // The motion that would be shown if nothing interrupted it: `count` world poses from the shown one on.
+  std::vector<Pose> continued(FighterId fighter, Tick tick, Tick count) const;
+
+  std::vector<FighterTrack> take_tracks();
+
+ private:
+  struct Actor {
+    BodyModel body;
+    Playback playback;
+    Launch launch;
+    std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
+    Tick simulated_from = 0;
+    bool was_simulated = false;
+    SweptBody swept{};
+    FighterTrack track;
+  };
+
+  Pose clip_pose(const Actor& actor, Tick tick) const;
+
+  const MotionLibrary& library_;
+  std::vector<Actor> actors_;
+};
+
+}  // namespace ringcraft
