@@ -1,0 +1,366 @@
+#include "capture/bvh.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kLargestNumber = 1e7f;  // beyond it no length or angle makes sense
+constexpr const char* kExportAgain = "export the file again";
+
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+// Lower-case copy, for keywords.
+std::string lowered(std::string_view word) {
+  std::string out(word);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+// Latin-1 bytes that are no UTF-8 become UTF-8; control characters become '?'.
+std::string clean_name(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f)
+      out += '?';
+    else if (byte < 0x80)
+      out += c;
+    else {
+      out += static_cast<char>(0xC0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out.substr(0, 200);
+}
+
+// A word of the file for a message: short and printable.
+std::string quoted(std::string_view word) {
+  return "'" + clean_name(word.substr(0, 24)) + "'";
+}
+
+// A finite number that fills the whole word.
+std::optional<float> number(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  float value = 0;
+  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (fault == std::errc::result_out_of_range && end == word.data() + word.size()) {
+    // Too small for a float is zero; too large is refused below.
+    return word.find("e-") != word.npos || word.find("E-") != word.npos ? std::optional(0.0f)
+                                                                        : std::nullopt;
+  }
+  if (fault != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  if (!std::isfinite(value) || std::abs(value) > kLargestNumber) return std::nullopt;
+  return value;
+}
+
+enum class Channel : std::uint8_t {
+  x_position,
+  y_position,
+  z_position,
+  x_rotation,
+  y_rotation,
+  z_rotation
+};
+
+std::optional<Channel> channel_from(std::string_view word) {
+  static constexpr std::array<std::string_view, 6> kNames = {"xposition", "yposition", "zposition",
+                                                             "xrotation", "yrotation", "zrotation"};
+  const std::string low = lowered(word);
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (low == kNames[i]) return static_cast<Channel>(i);
+  return std::nullopt;
+}
+
+// Words of the file with their lines.
+class Words {
+ public:
+  explicit Words(std::string_view text) : text_(text) {}
+
+  // The next word, "" at the end.
+  std::string_view next() {
+    while (at_ < text_.size() && (is_space(text_[at_]) || text_[at_] == '\n')) {
+      if (text_[at_] == '\n') ++line_;
+      ++at_;
+    }
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_space(text_[at_]) && text_[at_] != '\n') ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+  std::string_view peek() {
+    const Words before = *this;
+    const std::string_view word = next();
+    *this = before;
+    return word;
+  }
+  // What is left of the line, without the blanks around it; then stands at the next line.
+  std::string_view rest_of_line() {
+    std::size_t end = text_.find('\n', at_);
+    if (end == text_.npos) end = text_.size();
+    std::string_view rest = text_.substr(at_, end - at_);
+    at_ = std::min(end + 1, text_.size());
+    ++line_;
+    while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+    while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+    return rest;
+  }
+  bool done() const { return at_ >= text_.size(); }
+  int line() const { return line_; }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& file, const BvhLimits& limits)
+      : words_(text), limits_(limits) {
+    clip_.file = file;
+  }
+
+  Result<RawClip> read() {
+    if (auto ok = hierarchy(); !ok) return tl::unexpected(ok.error());
+    if (auto ok = motion_header(); !ok) return tl::unexpected(ok.error());
+    if (auto ok = rows(); !ok) return tl::unexpected(ok.error());
+    return std::move(clip_);
+  }
+
+ private:
+  tl::unexpected<Error> fault(int line, std::string what, std::string remedy = kExportAgain) const {
+    return input_error(clip_.file, fmt::format("line {}", line), std::move(what),
+                       std::move(remedy));
+  }
+  tl::unexpected<Error> unexpected_word(std::string_view word, std::string_view wanted) const {
+    if (word.empty())
+      return fault(words_.line(), fmt::format("the file ends where {} should stand", wanted));
+    return fault(words_.line(), fmt::format("{} should stand here, not {}", wanted, quoted(word)));
+  }
+
+  Result<float> read_number() {
+    const std::string_view word = words_.next();
+    if (const auto value = number(word)) return *value;
+    return unexpected_word(word, "a number");
+  }
+  Result<Vec3> read_vector() {
+    Vec3 v;
+    for (int i = 0; i < 3; ++i) {
+      auto value = read_number();
+      if (!value) return tl::unexpected(value.error());
+      v[i] = *value;
+    }
+    return v;
+  }
+
+  Result<void> hierarchy() {
+    std::string_view word = words_.next();
+    if (word.starts_with("\xEF\xBB\xBF")) word.remove_prefix(3);
+    if (lowered(word) != "hierarchy")
+      return input_error(clip_.file, "line 1", "no BVH file: it does not begin with HIERARCHY",
+                         "give a BVH file");
+    word = words_.next();
+    if (lowered(word) != "root") return unexpected_word(word, "ROOT");
+    if (auto ok = begin_joint(-1); !ok) return ok;
+    while (!open_.empty())
+      if (auto ok = joint_item(); !ok) return ok;
+    return {};
+  }
+
+  // After ROOT or JOINT: the name and the opening brace.
+  Result<void> begin_joint(int parent) {
+    if (clip_.joints.size() >= limits_.joints)
+      return fault(words_.line(), fmt::format("more than {} joints", limits_.joints));
+    if (open_.size() >= limits_.depth)
+      return fault(words_.line(), fmt::format("joints are nested deeper than {}", limits_.depth));
+    std::string_view name = words_.rest_of_line();
+    bool braced = false;
+    if (name.ends_with('{')) {
+      braced = true;
+      name.remove_suffix(1);
+      while (!name.empty() && is_space(name.back())) name.remove_suffix(1);
+    }
+    if (!braced) {
+      const std::string_view brace = words_.next();
+      if (brace != "{") return unexpected_word(brace, "'{'");
+    }
+    RawJoint joint;
+    joint.name = clean_name(name);
+    joint.parent = parent;
+    open_.push_back(static_cast<int>(clip_.joints.size()));
+    clip_.joints.push_back(std::move(joint));
+    channels_.emplace_back();
+    return {};
+  }
+
+  Result<void> joint_item() {
+    const std::string_view word = words_.next();
+    const std::string key = lowered(word);
+    const auto joint = static_cast<std::size_t>(open_.back());
+    if (key == "}") {
+      open_.pop_back();
+      return {};
+    }
+    if (key == "offset") {
+      auto v = read_vector();
+      if (!v) return tl::unexpected(v.error());
+      clip_.joints[joint].offset = *v;
+      return {};
+    }
+    if (key == "channels") return joint_channels(joint);
+    if (key == "joint") return begin_joint(open_.back());
+    if (key == "end") return end_site(joint);
+    return unexpected_word(word, "OFFSET, CHANNELS, JOINT, End Site or '}'");
+  }
+
+  Result<void> joint_channels(std::size_t joint) {
+    auto count = read_number();
+    if (!count) return tl::unexpected(count.error());
+    if (*count != std::floor(*count) || *count < 0 || *count > 6)
+      return fault(words_.line(), fmt::format("a joint has 0 to 6 channels, not {}", *count));
+    if (!channels_[joint].empty())
+      return fault(words_.line(), "CHANNELS stands twice in one joint");
+    for (int i = 0; i < static_cast<int>(*count); ++i) {
+      const std::string_view word = words_.next();
+      const auto channel = channel_from(word);
+      if (!channel) return unexpected_word(word, "a channel such as Zrotation");
+      if (std::count(channels_[joint].begin(), channels_[joint].end(), *channel) != 0)
+        return fault(words_.line(),
+                     fmt::format("channel {} stands twice in one joint", quoted(word)));
+      channels_[joint].push_back(*channel);
+    }
+    channel_count_ += channels_[joint].size();
+    return {};
+  }
+
+  Result<void> end_site(std::size_t joint) {
+    words_.rest_of_line();
+    std::string_view word = words_.next();
+    if (word != "{") return unexpected_word(word, "'{'");
+    word = words_.next();
+    if (lowered(word) != "offset") return unexpected_word(word, "OFFSET");
+    auto v = read_vector();
+    if (!v) return tl::unexpected(v.error());
+    clip_.joints[joint].end = *v;
+    word = words_.next();
+    if (word != "}") return unexpected_word(word, "'}'");
+    return {};
+  }
+
+  Result<void> motion_header() {
+    std::string_view word = words_.next();
+    if (lowered(word) != "motion") return unexpected_word(word, "MOTION");
+    word = words_.next();
+    if (lowered(word) != "frames:") return unexpected_word(word, "'Frames:'");
+    auto frames = read_number();
+    if (!frames) return tl::unexpected(frames.error());
+    if (*frames < 1 || *frames != std::floor(*frames))
+      return fault(words_.line(), fmt::format("Frames: {} is no count of frames", *frames));
+    if (static_cast<double>(*frames) * static_cast<double>(clip_.joints.size()) >
+        static_cast<double>(limits_.cells))
+      return fault(
+          words_.line(),
+          fmt::format("{} frames of {} joints are more than is read", *frames, clip_.joints.size()),
+          "cut the file into shorter ones");
+    frames_said_ = static_cast<std::size_t>(*frames);
+    word = words_.next();
+    if (lowered(word) != "frame") return unexpected_word(word, "'Frame Time:'");
+    word = words_.next();
+    if (lowered(word) != "time:") return unexpected_word(word, "'Frame Time:'");
+    const int line = words_.line();
+    auto time = read_number();
+    if (!time) return tl::unexpected(time.error());
+    if (*time < 1e-4f || *time > 1.0f)
+      return fault(line, fmt::format("a frame time of {} s is not between 0.0001 and 1", *time));
+    clip_.frame_seconds = static_cast<double>(*time);
+    words_.rest_of_line();
+    return {};
+  }
+
+  Result<void> rows() {
+    if (channel_count_ == 0) return fault(words_.line(), "no joint has channels");
+    std::vector<float> row;
+    while (!words_.done()) {
+      const int line = words_.line();
+      Words cells(words_.rest_of_line());
+      row.clear();
+      for (std::string_view word = cells.next(); !word.empty(); word = cells.next()) {
+        const auto value = number(word);
+        if (!value)
+          return fault(line, fmt::format("{} is not a number that can be used", quoted(word)));
+        row.push_back(*value);
+        if (row.size() > channel_count_) break;
+      }
+      if (row.empty()) continue;
+      if (row.size() != channel_count_)
+        return fault(line,
+                     fmt::format("this row has {} numbers, the hierarchy has {} channels",
+                                 row.size() > channel_count_ ? "more" : std::to_string(row.size()),
+                                 channel_count_),
+                     "the file is cut off or damaged: fetch it again");
+      if ((clip_.frames + 1) * clip_.joints.size() > limits_.cells)
+        return fault(line, "more frames than are read", "cut the file into shorter ones");
+      add_frame(row);
+    }
+    if (clip_.frames == 0) return fault(words_.line(), "there are no rows after Frame Time");
+    if (clip_.frames != frames_said_)
+      clip_.notes.push_back(fmt::format("Frames: says {}, the file has {} rows: read the rows",
+                                        frames_said_, clip_.frames));
+    return {};
+  }
+
+  void add_frame(const std::vector<float>& row) {
+    std::size_t cell = 0;
+    for (std::size_t j = 0; j < clip_.joints.size(); ++j) {
+      Vec3 translation = clip_.joints[j].offset;
+      Quat rotation(1, 0, 0, 0);
+      for (const Channel channel : channels_[j]) {
+        const float value = row[cell++];
+        const int axis = static_cast<int>(channel) % 3;
+        if (channel <= Channel::z_position) {
+          translation[axis] = value;
+        } else {
+          Vec3 about{};
+          about[axis] = 1;
+          rotation = rotation * glm::angleAxis(radians(std::remainder(value, 360.0f)), about);
+        }
+      }
+      clip_.translation.push_back(translation);
+      clip_.rotation.push_back(glm::normalize(rotation));
+    }
+    ++clip_.frames;
+  }
+
+  Words words_;
+  BvhLimits limits_;
+  RawClip clip_;
+  std::vector<std::vector<Channel>> channels_;
+  std::size_t channel_count_ = 0;
+  std::size_t frames_said_ = 0;
+  std::vector<int> open_;
+};
+
+}  // namespace
+
+Result<RawClip> parse_bvh(std::string_view text, const std::string& file, const BvhLimits& limits) {
+  return Reader(text, file, limits).read();
+}
+
+Result<RawClip> read_bvh(const std::filesystem::path& path) {
+  auto text = read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_bvh(*text, path.string());
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,47 @@
+#pragma once
+// Skeleton profiles: which joint of a capture is which canonical bone, its units and axes.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "capture/raw_clip.h"
+#include "motion/skeleton.h"
+
+namespace ringcraft {
+
+struct SkeletonProfile {
+  std::string name;
+  std::vector<float> metres_per_unit;  // candidates, the first that gives human legs is taken
+  Vec3 up{0, 1, 0};                    // in the file's axes
+  Vec3 forward{0, 0, 1};               // where the rest pose looks, in the file's axes
+  std::vector<std::string> prefixes;   // taken off the file's names before they are compared
+  std::array<std::string, kJointCount> source;  // empty where the file has no such joint
+};
+
+// A profile laid on one capture.
+struct JointMap {
+  std::array<int, kJointCount> source{};  // joint of the capture, -1 where there is none
+  float metres_per_unit = 1;
+  Quat axes{1, 0, 0, 0};  // turns the file's axes to ours
+};
+
+Result<SkeletonProfile> read_profile(const std::filesystem::path& path);
+
+// All profiles of a folder, by file name.
+Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& folder);
+
+// How well a profile fits, 0 to 1: the share of its joints that the capture has, each below the
+// joint that should carry it. Zero when a limb is missing.
+float score(const SkeletonProfile& profile, const RawClip& clip);
+
+// The best fit of at least 0.8; among equals the one that names more joints, then the first.
+Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
+                                     const RawClip& clip);
+
+// Error when a needed joint is missing or the legs have no human length in any of the units.
+Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip);
+
+}  // namespace ringcraft

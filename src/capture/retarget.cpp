@@ -1,0 +1,228 @@
+#include "capture/retarget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "capture/smooth.h"
+
+namespace ringcraft {
+namespace {
+
+// How the capture's rest pose is laid on ours: per joint, the rotation that turns our rest bone to
+// its.
+struct RestFit {
+  JointMap map;
+  std::array<Quat, kJointCount> bone{};
+  float scale = 1;  // file units to metres of the body it goes to
+};
+
+Vec3 rest_bone(const RawPose& rest, const JointMap& map, Joint from, Joint to) {
+  const int a = map.source[index(from)];
+  const int b = map.source[index(to)];
+  if (a < 0 || b < 0) return {};
+  return map.axes *
+         (rest.position[static_cast<std::size_t>(b)] - rest.position[static_cast<std::size_t>(a)]);
+}
+
+Result<RestFit> lay_on(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target) {
+  auto map = map_joints(profile, raw);
+  if (!map) return tl::unexpected(map.error());
+  RestFit fit;
+  fit.map = *map;
+  const RawPose rest = raw_rest_pose(raw);
+  float leg_units = 0;
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      const Vec3 upper = rest_bone(rest, *map, limb.root, limb.middle);
+      const Vec3 lower = rest_bone(rest, *map, limb.middle, limb.end);
+      fit.bone[index(limb.root)] = rotation_between(target.offset[index(limb.middle)], upper);
+      fit.bone[index(limb.middle)] = rotation_between(target.offset[index(limb.end)], lower);
+    }
+    // A hand goes on as its forearm rests. A foot rests flat, whatever bone the file draws in it,
+    // and only its way over the ground is laid on.
+    fit.bone[index(arm(side).end)] = fit.bone[index(arm(side).middle)];
+    const Vec3 foot = rest_bone(rest, *map, leg(side).end, toes(side));
+    if (glm::length(Vec3(foot.x, 0, foot.z)) > 0.3f * glm::length(foot)) {
+      fit.bone[index(leg(side).end)] = yaw_rotation(yaw_of(foot));
+      fit.bone[index(toes(side))] = fit.bone[index(leg(side).end)];
+    }
+    leg_units += 0.5f * (glm::length(rest_bone(rest, *map, leg(side).root, leg(side).middle)) +
+                         glm::length(rest_bone(rest, *map, leg(side).middle, leg(side).end)));
+  }
+  fit.scale = target.leg_length() / leg_units;
+  return fit;
+}
+
+// Trunk joints the capture does not have share the turn between those it has, by bone length.
+void fill_trunk(const Skeleton& target, const JointMap& map, std::array<Quat, kJointCount>& world) {
+  const std::size_t last = index(Joint::head);
+  for (std::size_t j = 1; j <= last; ++j) {
+    if (map.source[j] >= 0) continue;
+    std::size_t above = j + 1;
+    while (above <= last && map.source[above] < 0) ++above;
+    // The chest carries the arms: a trunk joint takes nothing from neck and head.
+    if (above > last || (above >= index(Joint::neck) && j < index(Joint::neck))) {
+      world[j] = world[j - 1];
+      continue;
+    }
+    float way = 0;
+    for (std::size_t k = j + 1; k <= above; ++k) way += glm::length(target.offset[k]);
+    const float step = glm::length(target.offset[j]);
+    world[j] =
+        glm::slerp(world[j - 1], in_hemisphere_of(world[above], world[j - 1]), step / (step + way));
+  }
+}
+
+Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source) {
+  const Quat back = glm::inverse(fit.map.axes);
+  std::array<Quat, kJointCount> world{};
+  for (std::size_t j = 0; j < kJointCount; ++j)
+    if (fit.map.source[j] >= 0)
+      world[j] = fit.map.axes * source.rotation[static_cast<std::size_t>(fit.map.source[j])] *
+                 back * fit.bone[j];
+  fill_trunk(target, fit.map, world);
+  for (std::size_t j = index(Joint::left_shoulder); j < kJointCount; ++j)
+    if (fit.map.source[j] < 0) world[j] = world[static_cast<std::size_t>(kParent[j])];
+
+  Pose pose;
+  const auto socket = [&](Joint joint) {
+    return source.position[static_cast<std::size_t>(fit.map.source[index(joint)])];
+  };
+  // The middle of the hip joints, which every skeleton has; where "hips" sits differs.
+  pose.hips = fit.map.axes * (socket(Joint::left_upper_leg) + socket(Joint::right_upper_leg)) *
+              0.5f * fit.scale;
+  pose.rotation[0] = glm::normalize(world[0]);
+  for (std::size_t j = 1; j < kJointCount; ++j)
+    pose.rotation[j] =
+        glm::normalize(glm::inverse(world[static_cast<std::size_t>(kParent[j])]) * world[j]);
+  return pose;
+}
+
+// Elbows and knees are hinges on our body. The angle by which the upper bone must turn about itself
+// so that the lower one flexes about the hinge; `trust` falls to zero for a straight limb.
+float hinge_twist(const Quat& lower, Vec3 bone, Vec3 hinge, float& trust) {
+  const Vec3 axis = glm::cross(bone, lower * bone);
+  const float sine = glm::length(axis);
+  const float flexion = std::atan2(sine, glm::dot(bone, lower * bone));
+  trust = glm::smoothstep(radians(8), radians(30), flexion);
+  if (trust <= 0) return 0;
+  const Vec3 unit = axis / sine;
+  const float twist = std::atan2(glm::dot(glm::cross(hinge, unit), bone), glm::dot(hinge, unit));
+  // An axis that points the other way is a joint bent backwards a little: noise, not a half turn.
+  if (std::abs(twist) > radians(120)) {
+    trust = 0;
+    return 0;
+  }
+  return twist;
+}
+
+void turn_to_hinges(const Skeleton& target, Clip& clip) {
+  for (const Side side : {Side::left, Side::right})
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      const Vec3 bone = glm::normalize(target.offset[index(limb.middle)]);
+      const bool is_leg = limb.root == leg(side).root;
+      const Vec3 hinge = is_leg ? kLeft : (side == Side::left ? -kUp : kUp);
+      std::vector<float> twist(clip.frames.size());
+      std::vector<float> trust(clip.frames.size());
+      for (std::size_t i = 0; i < clip.frames.size(); ++i)
+        twist[i] = hinge_twist(clip.frames[i].rotation[index(limb.middle)], bone, hinge, trust[i]);
+      // A straight limb goes on with the twist of the moments around it.
+      const std::vector<float> smooth = smoothed(twist, trust, 0.03f);
+      for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+        Pose& pose = clip.frames[i];
+        const Quat turn = glm::angleAxis(smooth[i], bone);
+        pose.rotation[index(limb.root)] = glm::normalize(pose.rotation[index(limb.root)] * turn);
+        pose.rotation[index(limb.middle)] =
+            glm::normalize(glm::inverse(turn) * pose.rotation[index(limb.middle)]);
+      }
+    }
+}
+
+// The height of the floor: where the balls of the planted feet stand, the median over both.
+float floor_height(const Skeleton& target, const Clip& clip) {
+  std::vector<float> heights;
+  std::vector<float> all;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    const WorldPose world = world_pose(target, clip.frames[i]);
+    for (const Side side : {Side::left, Side::right}) {
+      const float ball = world.position[index(toes(side))].y - target.toe_height();
+      all.push_back(ball);
+      if (clip.contacts[i].of(side)) heights.push_back(ball);
+    }
+  }
+  std::vector<float>& used = heights.empty() ? all : heights;
+  // Without contacts (a clip in the air) the lowest twentieth stands for the floor.
+  const std::size_t at = heights.empty() ? used.size() / 20 : used.size() / 2;
+  std::nth_element(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(at), used.end());
+  return used[at];
+}
+
+}  // namespace
+
+std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& map, float scale,
+                                           const RetargetSettings& settings) {
+  const auto count = static_cast<std::size_t>(std::floor(raw.seconds() * kTicksPerSecond)) + 1;
+  std::vector<FootContacts> contacts(count);
+  std::array<std::vector<Vec3>, 2> ball;
+  for (std::size_t i = 0; i < count; ++i) {
+    const RawPose pose = raw_pose(raw, static_cast<double>(i) / kTicksPerSecond);
+    for (const Side side : {Side::left, Side::right}) {
+      int joint = map.source[index(toes(side))];
+      if (joint < 0) joint = map.source[index(leg(side).end)];
+      ball[static_cast<std::size_t>(side)].push_back(
+          map.axes * pose.position[static_cast<std::size_t>(joint)] * scale);
+    }
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    const std::vector<Vec3>& path = ball[static_cast<std::size_t>(side)];
+    std::vector<float> heights;
+    for (const Vec3& p : path) heights.push_back(p.y);
+    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
+    std::nth_element(heights.begin(), low, heights.end());
+    std::vector<bool> planted(count);
+    bool carries = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t before = i >= 2 ? i - 2 : 0;
+      const std::size_t after = std::min(i + 2, count - 1);
+      const float elapsed =
+          static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
+      const float speed = glm::distance(path[before], path[after]) / elapsed;
+      carries = path[i].y < *low + settings.contact_height &&
+                speed < (carries ? settings.release_speed : settings.contact_speed);
+      planted[i] = carries;
+    }
+    close_short_runs(planted, false, 5);
+    close_short_runs(planted, true, 8);
+    for (std::size_t i = 0; i < count; ++i)
+      (side == Side::left ? contacts[i].left : contacts[i].right) = planted[i];
+  }
+  return contacts;
+}
+
+Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target,
+                      const RetargetSettings& settings) {
+  if (raw.frames < 2)
+    return input_error(raw.file, "", "a capture of one frame is no motion",
+                       "give a longer capture");
+  auto fit = lay_on(raw, profile, target);
+  if (!fit) return tl::unexpected(fit.error());
+  Clip clip;
+  clip.contacts = capture_contacts(raw, fit->map, fit->scale, settings);
+  for (std::size_t i = 0; i < clip.contacts.size(); ++i)
+    clip.frames.push_back(
+        pose_from(target, *fit, raw_pose(raw, static_cast<double>(i) / kTicksPerSecond)));
+  if (clip.frames.size() < 2)
+    return input_error(raw.file, "", "a capture shorter than a tick is no motion",
+                       "give a longer capture");
+  clip.root.assign(clip.frames.size(), Placement{});
+  turn_to_hinges(target, clip);
+  const float floor = floor_height(target, clip);
+  for (Pose& pose : clip.frames) pose.hips.y -= floor;
+  plant_feet(target, clip, settings);
+  unroll_rotations(clip);
+  return clip;
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,34 @@
+#pragma once
+// Retargeting: a capture's motion on the canonical skeleton, at one frame a tick, feet planted.
+//
+// Every bone points the way the capture's bone points (its rest pose is laid on ours bone by bone),
+// the hips' path is scaled by leg length, and the feet are cleaned up by inverse kinematics: a foot
+// that stands in the capture stands still on the floor.
+
+#include "capture/profile.h"
+#include "motion/clip.h"
+
+namespace ringcraft {
+
+struct RetargetSettings {
+  float contact_height = 0.035f;  // m over its standing height: a foot above it does not carry
+  float contact_speed = 0.25f;    // m/s at which a foot counts as set down
+  float release_speed = 0.45f;    // m/s at which it counts as lifted
+  float blend_seconds = 0.20f;    // over which a lifted foot leaves its corrected place
+};
+
+// In the capture's own space (our axes, metres of the target's body); the root track is the
+// identity throughout. Tick 0 is the file's first frame.
+Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target,
+                      const RetargetSettings& settings = {});
+
+// Foot contacts of the capture itself, one a tick: the ball of the foot (the ankle, where there are
+// no toes) near its lowest height and slow.
+std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& map, float scale,
+                                           const RetargetSettings& settings = {});
+
+// The clean-up alone: planted feet are held at one place on the floor, the others return to their
+// path; hips sink a little where a leg would not reach. Contacts must be labelled.
+void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings = {});
+
+}  // namespace ringcraft

@@ -1,0 +1,164 @@
+// The clean-up of the feet: see plant_feet in retarget.h.
+#include <algorithm>
+#include <cmath>
+
+#include "capture/retarget.h"
+#include "capture/smooth.h"
+#include "motion/ik.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kSoftShare = 0.97f;  // of a leg's length: beyond it its reach is eased
+constexpr float kNearFloor =
+    0.06f;  // m: a ball of the foot lower than this bends its toes to the floor
+
+struct FootTrack {
+  std::vector<Quat> foot, toe;  // world rotations, laid flat near the floor
+  std::vector<Vec3> ball;       // where the ball of the foot goes
+};
+
+// The foot's rotation with its heel not under the floor: where it points up more than flat, it is
+// flat.
+Quat with_heel_up(const Skeleton& skeleton, Side side, Quat foot, float share) {
+  const Vec3 flat = skeleton.offset[index(toes(side))];
+  const Vec3 points = foot * flat;
+  if (share <= 0 || points.y <= flat.y) return foot;
+  const float ground = std::hypot(points.x, points.z);
+  if (ground < 1e-3f) return foot;
+  const float reach = std::hypot(flat.x, flat.z) / ground;
+  const Vec3 laid(points.x * reach, flat.y, points.z * reach);
+  return glm::normalize(
+      glm::slerp(foot, in_hemisphere_of(rotation_between(points, laid) * foot, foot), share));
+}
+
+FootTrack foot_track(const Skeleton& skeleton, const Clip& clip, Side side) {
+  FootTrack track;
+  for (const Pose& pose : clip.frames) {
+    const WorldPose world = world_pose(skeleton, pose);
+    const Vec3 ball = world.position[index(toes(side))];
+    const float share = 1 - glm::smoothstep(0.0f, kNearFloor, ball.y - skeleton.toe_height());
+    const Quat foot = with_heel_up(skeleton, side, world.rotation[index(leg(side).end)], share);
+    const Quat toe = world.rotation[index(toes(side))];
+    const Quat flat = yaw_rotation(yaw_of(foot * kForward));
+    track.foot.push_back(foot);
+    track.toe.push_back(glm::slerp(toe, in_hemisphere_of(flat, toe), share));
+    track.ball.push_back(ball);
+  }
+  return track;
+}
+
+// Moves the path of one ball of the foot: planted it stands at the mean of its path on the floor;
+// between, the correction goes over smoothly from one plant to the next.
+void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSettings& settings,
+         FootTrack& track) {
+  const std::size_t count = track.ball.size();
+  struct Plant {
+    std::size_t begin, end;
+    Vec3 place;
+  };
+  std::vector<Plant> plants;
+  for (std::size_t i = 0; i < count;) {
+    std::size_t end = i;
+    Vec3 sum{};
+    while (end < count && clip.contacts[end].of(side)) sum += track.ball[end++];
+    if (end == i) {
+      ++i;
+      continue;
+    }
+    Vec3 place = sum / static_cast<float>(end - i);
+    place.y = skeleton.toe_height();
+    plants.push_back({i, end, place});
+    i = end;
+  }
+  std::vector<Vec3> moved = track.ball;
+  const auto correction = [&](const Plant& plant, std::size_t at) {
+    return plant.place - track.ball[at];
+  };
+  const auto blend = static_cast<float>(ticks(static_cast<double>(settings.blend_seconds)));
+  for (std::size_t p = 0; p <= plants.size(); ++p) {
+    const std::size_t from = p == 0 ? 0 : plants[p - 1].end;
+    const std::size_t to = p == plants.size() ? count : plants[p].begin;
+    for (std::size_t i = from; i < to; ++i) {
+      // Out of the last plant and into the next, each over the blend or half of the way between.
+      const auto swing = static_cast<float>(to - from);
+      const float reach =
+          p == 0 || p == plants.size() ? blend : std::max(std::min(blend, swing), 1.0f);
+      Vec3 shift{};
+      float weight = 0;
+      if (p > 0) {
+        const float w = 1 - glm::smoothstep(0.0f, reach, static_cast<float>(i - from) + 1);
+        shift += correction(plants[p - 1], plants[p - 1].end - 1) * w;
+        weight += w;
+      }
+      if (p < plants.size()) {
+        const float w = 1 - glm::smoothstep(0.0f, reach, static_cast<float>(to - i));
+        shift += correction(plants[p], plants[p].begin) * w;
+        weight += w;
+      }
+      moved[i] += weight > 1 ? shift / weight : shift;
+      moved[i].y = std::max(moved[i].y, skeleton.toe_height());
+    }
+    if (p < plants.size())
+      for (std::size_t i = plants[p].begin; i < plants[p].end; ++i) moved[i] = plants[p].place;
+  }
+  track.ball = std::move(moved);
+}
+
+Vec3 ankle_at(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i) {
+  return track.ball[i] - track.foot[i] * skeleton.offset[index(toes(side))];
+}
+
+// Lets the hips sink, smoothly, where a planted leg is too short for its place.
+void sink_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Clip& clip) {
+  const std::size_t count = clip.frames.size();
+  std::vector<float> sink(count);
+  const float reach = kSoftShare * skeleton.leg_length();
+  for (std::size_t i = 0; i < count; ++i) {
+    const WorldPose world = world_pose(skeleton, clip.frames[i]);
+    for (const Side side : {Side::left, Side::right}) {
+      if (!clip.contacts[i].of(side)) continue;
+      const Vec3 ankle = ankle_at(skeleton, side, feet[static_cast<std::size_t>(side)], i);
+      const Vec3 line = ankle - world.position[index(leg(side).root)];
+      const float ground = std::min(std::hypot(line.x, line.z), 0.95f * reach);
+      sink[i] = std::max(sink[i], -line.y - std::sqrt(reach * reach - ground * ground));
+    }
+  }
+  constexpr std::size_t kAround =
+      8;  // ticks: the deepest within it, so that smoothing keeps the need
+  std::vector<float> deepest(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = i >= kAround ? i - kAround : 0; k <= std::min(count - 1, i + kAround); ++k)
+      deepest[i] = std::max(deepest[i], std::min(sink[k], 0.12f));
+  const std::vector<float> smooth = smoothed(deepest, 0.04f);
+  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y -= smooth[i];
+}
+
+}  // namespace
+
+void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings) {
+  std::array<FootTrack, 2> feet;
+  for (const Side side : {Side::left, Side::right}) {
+    FootTrack& track = feet[static_cast<std::size_t>(side)];
+    track = foot_track(skeleton, clip, side);
+    pin(skeleton, clip, side, settings, track);
+  }
+  sink_hips(skeleton, feet, clip);
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    Pose& pose = clip.frames[i];
+    for (const Side side : {Side::left, Side::right}) {
+      const FootTrack& track = feet[static_cast<std::size_t>(side)];
+      const WorldPose world = world_pose(skeleton, pose);
+      LimbTarget target;
+      target.position = ankle_at(skeleton, side, track, i);
+      target.pole =
+          present_pole(world, leg(side), world.rotation[index(leg(side).root)] * kForward);
+      target.soft_share = kSoftShare;
+      solve_limb(skeleton, leg(side), target, pose);
+      set_world_rotation(skeleton, leg(side).end, track.foot[i], pose);
+      set_world_rotation(skeleton, toes(side), track.toe[i], pose);
+    }
+  }
+}
+
+}  // namespace ringcraft
