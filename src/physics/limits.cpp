@@ -1,0 +1,137 @@
+// Joint ranges, measured from the T-pose (validation V3; where V3 is silent, the AMA Guides'
+// ranges).
+#include <algorithm>
+#include <cmath>
+
+#include "physics/body.h"
+
+namespace ringcraft {
+namespace {
+
+struct Split {
+  Vec3 swing{};     // rotation vector across the axis, rad
+  float twist = 0;  // rad about the axis, in (-pi, pi]
+};
+
+// q = swing * twist about `axis` (a unit coordinate axis).
+Split split(Quat q, Vec3 axis) {
+  const float along = q.x * axis.x + q.y * axis.y + q.z * axis.z;
+  const float n = std::sqrt(along * along + q.w * q.w);
+  const Quat twist = n > 1e-6f
+                         ? Quat(q.w / n, axis.x * along / n, axis.y * along / n, axis.z * along / n)
+                         : Quat(1, 0, 0, 0);
+  Split s;
+  s.twist = wrapped_angle(2 * std::atan2(along, q.w));
+  s.swing = rotation_vector(q * glm::conjugate(twist));
+  return s;
+}
+
+struct Range {
+  float low, high;  // degrees
+};
+
+float beyond(float radians_value, Range range) {
+  return std::max({radians(range.low) - radians_value, radians_value - radians(range.high), 0.0f});
+}
+
+// Left and right are measured alike: the right side is mirrored across x = 0 first.
+Quat as_left(Quat q, bool left) {
+  return left ? q : Quat(q.w, q.x, -q.y, -q.z);
+}
+
+// Thoracolumbar spine: lumbar 75/30/35 (V3) and the thorax's 30/15/20; 45 of axial rotation.
+float trunk_excess(Quat q) {
+  const Split s = split(q, kUp);
+  return std::max(
+      {beyond(s.swing.x, {-45, 105}), beyond(s.swing.z, {-55, 55}), beyond(s.twist, {-45, 45})});
+}
+
+float neck_excess(Quat q) {
+  const Split s = split(q, kUp);
+  return std::max(
+      {beyond(s.swing.x, {-70, 60}), beyond(s.swing.z, {-45, 45}), beyond(s.twist, {-80, 80})});
+}
+
+// The humerus stays within 117 degrees of the direction half-way between its extremes (forward, out
+// and down): flexion 180 lies 110 off it, extension 60 lies 114. Rotation is counted from the
+// scapular plane; away from it the same humeral rotation reads up to 30 degrees more (Codman).
+float shoulder_excess(Quat q) {
+  static const Quat middle = rotation_between(kLeft, Vec3{.55f, -.35f, .75f});
+  const Split s = split(glm::conjugate(middle) * q, kLeft);
+  const float swing = glm::length(s.swing);
+  // Near the far end of the cone the twist means nothing.
+  const float twist = swing > radians(130) ? 0 : beyond(s.twist, {-120, 120});
+  return std::max(swing - radians(117), twist);
+}
+
+// Flexion turns the forearm from +x to +z: about -y on the left. Fifteen degrees of hyperextension
+// and carrying angle are within what markers show of a straight arm.
+float elbow_excess(Quat q) {
+  const Split s = split(q, kLeft);
+  return std::max(
+      {beyond(-s.swing.y, {-10, 150}), beyond(s.swing.z, {-20, 20}), beyond(s.twist, {-90, 90})});
+}
+
+// Palm down: flexion about -z, ulnar deviation about +y; forearm rotation may sit in the hand's
+// joint.
+float wrist_excess(Quat q) {
+  const Split s = split(q, kLeft);
+  return std::max(
+      {beyond(-s.swing.z, {-70, 90}), beyond(s.swing.y, {-25, 65}), beyond(s.twist, {-90, 90})});
+}
+
+// Measured from 45 degrees of flexion and 7 of abduction. Flexion 130 and extension 30 lie 85 and
+// 75 off it; a raised leg abducts farther than the 45 of a standing one because it rotates outward
+// (the roundhouse's chamber): 75.
+float hip_excess(Quat q) {
+  static const Quat middle =
+      glm::angleAxis(radians(7), kForward) * glm::angleAxis(radians(-45), kLeft);
+  const Split s = split(glm::conjugate(middle) * q, kUp);
+  return std::max(
+      {beyond(-s.swing.x, {-75, 85}), beyond(s.swing.z, {-60, 75}), beyond(s.twist, {-60, 60})});
+}
+
+float knee_excess(Quat q) {
+  const Split s = split(q, kUp);
+  return std::max(
+      {beyond(s.swing.x, {-10, 150}), beyond(s.swing.z, {-15, 15}), beyond(s.twist, {-40, 40})});
+}
+
+// Dorsiflexion is about -x; 35 under the body's weight (ragdoll.md section 1).
+float ankle_excess(Quat q) {
+  const Split s = split(q, kLeft);
+  return std::max(
+      {beyond(s.twist, {-35, 60}), beyond(s.swing.y, {-35, 35}), beyond(s.swing.z, {-35, 35})});
+}
+
+float toes_excess(Quat q) {
+  const Split s = split(q, kLeft);
+  return std::max(beyond(s.twist, {-90, 50}), glm::length(s.swing) - radians(25));
+}
+
+}  // namespace
+
+std::vector<LimitViolation> limit_violations(const BodyModel&, const Pose& pose, float tolerance) {
+  const auto q = [&](Joint joint) { return pose.rotation[index(joint)]; };
+  std::vector<LimitViolation> found;
+  const auto note = [&](Joint joint, float excess) {
+    if (excess > tolerance) found.push_back({joint, excess});
+  };
+  note(Joint::spine, trunk_excess(q(Joint::spine) * q(Joint::chest) * q(Joint::upper_chest)));
+  note(Joint::neck, neck_excess(q(Joint::neck) * q(Joint::head)));
+  for (const Side side : {Side::left, Side::right}) {
+    const bool left = side == Side::left;
+    const Limb a = arm(side), l = leg(side);
+    const Joint clavicle = left ? Joint::left_shoulder : Joint::right_shoulder;
+    note(a.root, shoulder_excess(as_left(q(clavicle) * q(a.root), left)));
+    note(a.middle, elbow_excess(as_left(q(a.middle), left)));
+    note(a.end, wrist_excess(as_left(q(a.end), left)));
+    note(l.root, hip_excess(as_left(q(l.root), left)));
+    note(l.middle, knee_excess(as_left(q(l.middle), left)));
+    note(l.end, ankle_excess(as_left(q(l.end), left)));
+    note(toes(side), toes_excess(as_left(q(toes(side)), left)));
+  }
+  return found;
+}
+
+}  // namespace ringcraft
