@@ -16,28 +16,30 @@ struct SweptBody {
 
 struct Contact {
   Part striker = Part::right_hand;
-  Part struck = Part::head;   // the first part in the way, a guarding forearm or glove where blocked
+  Part struck = Part::head;  // the first part in the way, a guarding forearm or glove where blocked
   bool blocked = false;
-  Vec3 point{};               // on the struck part's surface, world, m
-  Vec3 normal{};              // unit, from the struck part's axis toward the striker
-  Vec3 velocity{};            // of the striker relative to the struck part at the point, m/s
-  float share = 0;            // when between `before` (0) and `after` (1)
+  Vec3 point{};     // on the struck part's surface, world, m
+  Vec3 normal{};    // unit, from the struck part's axis toward the striker
+  Vec3 velocity{};  // of the striker relative to the struck part at the point, m/s
+  float share = 0;  // when between `before` (0) and `after` (1)
 };
 
-// First contact of `striker` with a part of the target in the interval, or nothing. A guard part in the
-// way is a block. Only an approaching striker makes contact.
-std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker, const SweptBody& target);
+// First contact of `striker` with a part of the target in the interval, or nothing. A guard part in
+// the way is a block. Only an approaching striker makes contact.
+std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
+                                      const SweptBody& target);
 
-// The same for whatever part of the limb the strike can land with (striking_parts): the earliest one.
+// The same for whatever part of the limb the strike can land with (striking_parts): the earliest
+// one.
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
                                       const SweptBody& target);
 
-// Parts a strike can land with, bit index(part): the glove; the foot; of a roundhouse the shin too. To
-// be excepted from penetration while the strike is active.
+// Parts a strike can land with, bit index(part): the glove; the foot; of a roundhouse the shin too.
+// To be excepted from penetration while the strike is active.
 std::uint32_t striking_parts(const Strike& strike);
 
-// Parts of a zone, bit index(part). Guard parts belong to none. Head: head and neck; body: trunk and
-// upper arms; leg: thighs, shins, feet.
+// Parts of a zone, bit index(part). Guard parts belong to none. Head: head and neck; body: trunk
+// and upper arms; leg: thighs, shins, feet.
 std::uint32_t zone_parts(TargetZone zone);
 TargetZone zone_of(Part part);  // guard parts count as body
 

@@ -1,0 +1,135 @@
+#include "physics/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/penetration.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kTouch = 1e-4f;  // m: gap that counts as touching
+constexpr int kMostAdvances = 64;
+// A guard that is met at most this far behind the target (m of the striker's way) still takes the
+// blow: glove and forearm are soft and wider than their capsules.
+constexpr float kGuardReach = 0.02f;
+
+constexpr std::uint32_t bit(Part part) {
+  return 1u << index(part);
+}
+
+Capsule between(const Capsule& a, const Capsule& b, float share) {
+  return {glm::mix(a.a, b.a, share), glm::mix(a.b, b.b, share), a.radius};
+}
+
+// The farthest that any point of the axis travels (ends move on straight lines).
+float travel(const Capsule& before, const Capsule& after) {
+  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
+}
+
+// Displacement over the interval of the axis point nearest to `point`.
+Vec3 displacement(const Capsule& before, const Capsule& after, const Capsule& now, Vec3 point) {
+  const Vec3 axis = now.b - now.a;
+  const float length2 = glm::dot(axis, axis);
+  const float t =
+      length2 > 1e-12f ? std::clamp(glm::dot(point - now.a, axis) / length2, 0.0f, 1.0f) : 0.0f;
+  return glm::mix(after.a - before.a, after.b - before.b, t);
+}
+
+// First touch of two moving capsules by conservative advancement: the gap cannot close faster than
+// both travel.
+std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, const SweptBody& target,
+                                   Part struck) {
+  const Capsule &s0 = attacker.before[index(striker)], &s1 = attacker.after[index(striker)];
+  const Capsule &t0 = target.before[index(struck)], &t1 = target.after[index(struck)];
+  const float closing = travel(s0, s1) + travel(t0, t1);
+  const float reach = s0.radius + t0.radius;
+  float share = 0;
+  Capsule s = s0, t = t0;
+  SegmentDistance d = segment_distance(s.a, s.b, t.a, t.b);
+  for (int i = 0; i < kMostAdvances && d.distance - reach > kTouch; ++i) {
+    if (closing < 1e-9f) return std::nullopt;
+    share += (d.distance - reach) / closing;
+    if (share > 1) return std::nullopt;
+    s = between(s0, s1, share);
+    t = between(t0, t1, share);
+    d = segment_distance(s.a, s.b, t.a, t.b);
+  }
+  Contact c;
+  const Vec3 moved = displacement(s0, s1, s, d.on_first) - displacement(t0, t1, t, d.on_second);
+  c.velocity = moved / attacker.seconds;
+  c.normal = normalized_or(d.on_first - d.on_second, normalized_or(-moved, kUp));
+  if (glm::dot(c.velocity, c.normal) >= 0) return std::nullopt;  // slides past or draws away
+  c.striker = striker;
+  c.struck = struck;
+  c.blocked = is_guard_part(struck);
+  c.point = d.on_second + c.normal * t0.radius;
+  c.share = share;
+  return c;
+}
+
+}  // namespace
+
+std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
+                                      const SweptBody& target) {
+  std::optional<Contact> hit, block;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Part part = part_at(i);
+    const auto c = first_touch(attacker, striker, target, part);
+    if (!c) continue;
+    auto& best = c->blocked ? block : hit;
+    if (!best || c->share < best->share) best = c;
+  }
+  if (!hit) return block;
+  if (!block) return hit;
+  const float way = travel(attacker.before[index(striker)], attacker.after[index(striker)]);
+  return (block->share - hit->share) * way <= kGuardReach ? block : hit;
+}
+
+std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
+                                      const SweptBody& target) {
+  const std::uint32_t parts = striking_parts(strike);
+  std::optional<Contact> first;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (!((parts >> i) & 1u)) continue;
+    const auto c = strike_contact(attacker, part_at(i), target);
+    if (c && (!first || c->share < first->share)) first = c;
+  }
+  return first;
+}
+
+std::uint32_t striking_parts(const Strike& strike) {
+  const Part part = part_of(strike.joint).value_or(Part::right_hand);
+  std::uint32_t parts = bit(part);
+  if (strike.kind == StrikeKind::roundhouse) {
+    parts |= 1u << static_cast<unsigned>(parent_of(part));
+  }
+  return parts;
+}
+
+TargetZone zone_of(Part part) {
+  switch (part) {
+    case Part::neck:
+    case Part::head:
+      return TargetZone::head;
+    case Part::left_thigh:
+    case Part::left_shin:
+    case Part::left_foot:
+    case Part::right_thigh:
+    case Part::right_shin:
+    case Part::right_foot:
+      return TargetZone::leg;
+    default:
+      return TargetZone::body;
+  }
+}
+
+std::uint32_t zone_parts(TargetZone zone) {
+  std::uint32_t parts = 0;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (!is_guard_part(part_at(i)) && zone_of(part_at(i)) == zone) parts |= bit(part_at(i));
+  }
+  return parts;
+}
+
+}  // namespace ringcraft
