@@ -1,0 +1,54 @@
+#pragma once
+// Cutting labelled actions out of a retargeted capture.
+//
+// A cut is moved to action space: +Z points at the opponent, who is nowhere in a capture of one
+// person. A straight says where he stands (pelvis to wrist at full extension); elsewhere the
+// fighter's guard does (its pelvis is turned off the opponent by a known angle). The root track is
+// smooth: it follows the body over the ground but neither the swing of the hips nor the bounce.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "motion/action.h"
+
+namespace ringcraft {
+
+struct StrikeCut {
+  StrikeKind kind = StrikeKind::straight;
+  Joint joint = Joint::left_hand;
+  TargetZone zone = TargetZone::head;
+  double at = 0;  // s: the joint's peak speed
+};
+
+// One action of a manifest. Times in seconds from the capture's first frame.
+struct ActionCut {
+  std::string name;
+  Kind kind = Kind::idle;
+  double begin = 0, end = 0;
+  float turn = 0;  // rad, added to the facing that is found
+  std::vector<StrikeCut> strikes;
+  std::optional<Defense> defense;  // ticks from the capture's first frame
+  std::optional<Response> response;
+  bool measure_direction = false;  // of the response, from the root track
+  Lying starts_lying = Lying::none, ends_lying = Lying::none;
+};
+
+// What the cuts of one capture share.
+struct CaptureTracks {
+  std::vector<Vec3> ground;   // under the pelvis, low-passed at 1 Hz
+  std::vector<float> facing;  // rad, continuous: where the guard faces
+};
+// `guard_yaw`: pelvis yaw off the opponent in this fighter's guard, rad (boxers -58 degrees).
+CaptureTracks tracks_of(const Clip& capture, float guard_yaw);
+
+// `file` and `place` are for messages.
+Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
+                          const CaptureTracks& tracks, const ActionCut& cut,
+                          const std::string& file, const std::string& place);
+
+// The tick in [first, last] at which the joint moves fastest relative to the hips.
+Tick fastest_tick(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick first, Tick last);
+
+}  // namespace ringcraft

@@ -1,0 +1,213 @@
+#include "capture/library_builder.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/document.h"
+#include "base/file.h"
+#include "capture/bvh.h"
+#include "capture/cut.h"
+#include "capture/profile.h"
+#include "capture/retarget.h"
+#include "capture/sheet.h"
+
+namespace ringcraft {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kGuardYaw = -58;  // degrees, median of two boxers' guards (orthodox)
+
+std::string text_of(const Json& value, const char* key, const char* otherwise = "") {
+  const auto it = value.find(key);
+  return it == value.end() ? otherwise : it->get<std::string>();
+}
+double number_of(const Json& value, const char* key, double otherwise = 0) {
+  const auto it = value.find(key);
+  return it == value.end() ? otherwise : it->get<double>();
+}
+bool flag_of(const Json& value, const char* key) {
+  const auto it = value.find(key);
+  return it != value.end() && it->get<bool>();
+}
+
+// The schema has checked that every name is one of those known.
+ActionCut cut_from(const Json& value) {
+  ActionCut cut;
+  cut.name = text_of(value, "name");
+  cut.kind = *kind_from_name(text_of(value, "kind"));
+  cut.begin = number_of(value, "begin");
+  cut.end = number_of(value, "end");
+  cut.turn = radians(static_cast<float>(number_of(value, "facing_degrees")));
+  for (const Json& strike : value.value("strike", Json::array())) {
+    StrikeCut s;
+    s.kind = *strike_kind_from_name(text_of(strike, "kind"));
+    s.joint = *joint_from_vrm_name(text_of(strike, "joint"));
+    s.zone = *zone_from_name(text_of(strike, "zone"));
+    s.at = number_of(strike, "at");
+    cut.strikes.push_back(s);
+  }
+  if (const auto it = value.find("defense"); it != value.end())
+    cut.defense = Defense{*defense_kind_from_name(text_of(*it, "kind")),
+                          ticks(number_of(*it, "begin")), ticks(number_of(*it, "end"))};
+  if (const auto it = value.find("response"); it != value.end()) {
+    cut.response = Response{*response_kind_from_name(text_of(*it, "kind")),
+                            static_cast<int>(number_of(*it, "steps")),
+                            radians(static_cast<float>(number_of(*it, "direction_degrees")))};
+    cut.measure_direction = !it->contains("direction_degrees");
+  }
+  cut.starts_lying = *lying_from_name(text_of(value, "starts_lying", "none"));
+  cut.ends_lying = *lying_from_name(text_of(value, "ends_lying", "none"));
+  return cut;
+}
+
+Result<SkeletonProfile> profile_for(const Document& manifest, const std::string& pointer,
+                                    const Json& entry, const RawClip& raw) {
+  const std::filesystem::path folder = assets_folder() / "profiles";
+  const std::string name = text_of(entry, "profile");
+  if (!name.empty() && name.find_first_of("/\\") != std::string::npos)
+    return input_error(manifest.path.string(), manifest.place(pointer + "/profile"),
+                       "a profile is a bare name",
+                       "give the name of a file in assets/profiles without .toml");
+  if (!name.empty()) return read_profile(folder / (name + ".toml"));
+  auto profiles = read_profiles(folder);
+  if (!profiles) return tl::unexpected(profiles.error());
+  return best_profile(*profiles, raw);
+}
+
+struct Collector {
+  std::vector<Action> actions;
+  std::set<std::string> names;
+  std::vector<std::string>* notes = nullptr;
+
+  void note(std::string text) {
+    if (notes != nullptr) notes->push_back(std::move(text));
+  }
+  Result<void> add(Action action, const std::string& file, const std::string& place) {
+    const std::vector<std::string> wrong = faults(action.clip);
+    if (!wrong.empty())
+      return input_error(file, place, fmt::format("action {}: {}", action.name, wrong.front()),
+                         "mend its source");
+    if (!names.insert(action.name).second)
+      return input_error(file, place, fmt::format("a second action is called {}", action.name),
+                         "rename one of them");
+    actions.push_back(std::move(action));
+    return {};
+  }
+};
+
+Result<void> add_capture(const Document& manifest, std::size_t number, const Json& entry,
+                         Collector& out) {
+  const std::string pointer = fmt::format("/capture/{}", number);
+  const std::filesystem::path path = manifest.path.parent_path() / text_of(entry, "path");
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    if (flag_of(entry, "optional")) {
+      out.note(fmt::format("{}: not there, passed over", path.string()));
+      return {};
+    }
+    const std::string package = text_of(entry, "package");
+    return input_error(manifest.path.string(), manifest.place(pointer + "/path"),
+                       fmt::format("the capture {} is not there", path.string()),
+                       package.empty() ? "correct the path" : "apt-get install " + package);
+  }
+  auto raw = read_bvh(path);
+  if (!raw) return tl::unexpected(raw.error());
+  replace_junk_first_frame(*raw);
+  for (const std::string& note : raw->notes) out.note(path.string() + ": " + note);
+  auto profile = profile_for(manifest, pointer, entry, *raw);
+  if (!profile) return tl::unexpected(profile.error());
+  const Skeleton skeleton = canonical_skeleton();
+  auto clip = retarget(*raw, *profile, skeleton);
+  if (!clip) return tl::unexpected(clip.error());
+  if (flag_of(entry, "mirror")) *clip = mirrored(*clip);
+  const auto yaw = static_cast<float>(number_of(entry, "guard_yaw_degrees", kGuardYaw));
+  const CaptureTracks tracks = tracks_of(*clip, radians(yaw));
+  for (std::size_t i = 0; i < entry["action"].size(); ++i) {
+    const std::string place = manifest.place(fmt::format("{}/action/{}/name", pointer, i));
+    auto action = cut_action(skeleton, *clip, tracks, cut_from(entry["action"][i]),
+                             manifest.path.string(), place);
+    if (!action) return tl::unexpected(action.error());
+    action->source =
+        fmt::format("{} {:.2f}-{:.2f} s", path.filename().string(),
+                    number_of(entry["action"][i], "begin"), number_of(entry["action"][i], "end"));
+    if (auto ok = out.add(std::move(*action), manifest.path.string(), place); !ok) return ok;
+  }
+  return {};
+}
+
+// Files that a pattern names, sorted; * in the file name stands for any part of it.
+std::vector<std::filesystem::path> files_like(const std::filesystem::path& pattern) {
+  const std::string name = pattern.filename().string();
+  const std::size_t star = name.find('*');
+  if (star == std::string::npos) return {pattern};
+  const std::string head = name.substr(0, star);
+  const std::string tail = name.substr(star + 1);
+  std::vector<std::filesystem::path> found;
+  std::error_code fault;
+  for (std::filesystem::directory_iterator it(pattern.parent_path(), fault), end;
+       !fault && it != end; it.increment(fault)) {
+    const std::string file = it->path().filename().string();
+    if (file.size() >= head.size() + tail.size() && file.starts_with(head) && file.ends_with(tail))
+      found.push_back(it->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Result<void> add_sheets(const Document& manifest, std::size_t number, const std::string& pattern,
+                        Collector& out) {
+  const std::string place = manifest.place(fmt::format("/sheets/{}", number));
+  const auto files = files_like(manifest.path.parent_path() / pattern);
+  if (files.empty())
+    return input_error(manifest.path.string(), place, fmt::format("no sheet is called {}", pattern),
+                       "correct the name or take it out");
+  for (const auto& file : files) {
+    auto actions = compile_sheet_file(file);
+    if (!actions) return tl::unexpected(actions.error());
+    for (Action& action : *actions)
+      if (auto ok = out.add(std::move(action), file.string(), ""); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> collect(const Document& manifest, Collector& out) {
+  const Json captures = manifest.value.value("capture", Json::array());
+  for (std::size_t i = 0; i < captures.size(); ++i)
+    if (auto ok = add_capture(manifest, i, captures[i], out); !ok) return ok;
+  const Json sheets = manifest.value.value("sheets", Json::array());
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    if (auto ok = add_sheets(manifest, i, sheets[i].get<std::string>(), out); !ok) return ok;
+  if (out.actions.empty())
+    return input_error(manifest.path.string(), "", "the manifest leads to no action",
+                       "name captures or sheets");
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifest,
+                                            std::vector<std::string>* notes) {
+  auto document = read_document(manifest, "manifest");
+  if (!document) return tl::unexpected(document.error());
+  Collector out;
+  out.notes = notes;
+  if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
+  return std::move(out.actions);
+}
+
+Result<MotionLibrary> build_library(const std::filesystem::path& manifest) {
+  auto document = read_document(manifest, "manifest");
+  if (!document) return tl::unexpected(document.error());
+  Collector out;
+  if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
+  MotionLibrary library(document->value["name"].get<std::string>(), std::move(out.actions));
+  if (library.launchable().empty())
+    return input_error(manifest.string(), "", "no action can follow another",
+                       "let actions start and end near one guard");
+  return library;
+}
+
+}  // namespace ringcraft
