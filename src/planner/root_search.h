@@ -1,0 +1,148 @@
+#pragma once
+// The root of the search: every move is a task of its own, so that values, counts and lines are the
+// same for any number of threads.
+//
+// The first move is searched with an open window; the others, with the window opened by `margin`
+// below its value, do not hear of each other. So every move within `margin` of the best has its
+// exact value.
+
+#include <atomic>
+#include <thread>
+
+#include "planner/search.h"
+
+namespace ringcraft {
+
+template <Game G>
+struct RootMove {
+  typename G::Move move;
+  Child<typename G::Node> child;
+  std::int32_t value = 0;
+  bool exact = false;                  // else the value is an upper bound, below the margin
+  std::vector<typename G::Move> line;  // after `move`
+  SearchCounts counts;
+  G game;  // the task's own: holds what it counted
+};
+
+// Runs task(0) .. task(count - 1) on up to `threads` threads.
+template <class Task>
+void run_tasks(std::size_t count, int threads, const Task& task) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) task(i);
+  };
+  std::vector<std::thread> others;
+  const std::size_t most = std::min(count, static_cast<std::size_t>(std::max(1, threads)));
+  for (std::size_t i = 1; i < most; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& thread : others) thread.join();
+}
+
+// The memory of one root move from horizon to horizon.
+template <Game G>
+struct RootMemory {
+  std::uint32_t key = 0;
+  std::int32_t last = kWorst;  // value at the last horizon
+  std::unique_ptr<Search<G>> search;
+};
+
+template <Game G>
+class RootSearch {
+ public:
+  using Node = typename G::Node;
+
+  RootSearch(const SearchSettings& settings, int threads, bool alpha_beta)
+      : settings_(settings), threads_(threads), alpha_beta_(alpha_beta) {}
+
+  // Searches every move of `root`, where the maximizer acts. Best first; equal values in the order
+  // in which they were searched. Empty when the node limit (over all moves; 0 is none) was not
+  // enough. `root_game` counts what was struck off at the root.
+  std::vector<RootMove<G>> run(G& root_game, const Node& root, std::int32_t margin,
+                               std::uint64_t node_limit) {
+    std::vector<RootMove<G>> moves = children(root_game, root);
+    if (moves.empty()) return moves;
+    std::stable_sort(moves.begin(), moves.end(), [&](const auto& a, const auto& b) {
+      return memory_of(a.game, a.move).last > memory_of(b.game, b.move).last;
+    });
+    std::atomic<bool> aborted{false};
+    const auto task = [&](std::size_t i, std::int32_t alpha, std::uint64_t limit) {
+      if (!search_move(moves[i], alpha, limit)) aborted = true;
+    };
+    task(0, kWorst, node_limit);
+    spent_ = moves[0].counts.nodes;
+    const std::int32_t alpha = moves[0].value - margin - 1;
+    const std::size_t others = moves.size() - 1;
+    if (others > 0 && !aborted) {
+      std::uint64_t share = 0;
+      if (node_limit != 0) {
+        share = (node_limit - std::min(node_limit, moves[0].counts.nodes)) / others;
+        if (share == 0) aborted = true;
+      }
+      if (!aborted) {
+        run_tasks(others, threads_, [&](std::size_t i) { task(i + 1, alpha, share); });
+        for (std::size_t i = 1; i < moves.size(); ++i) spent_ += moves[i].counts.nodes;
+      }
+    }
+    for (RootMemory<G>& memory : memory_) memory.search->next_horizon();
+    if (aborted) return {};
+    for (const RootMove<G>& move : moves) memory_of(move.game, move.move).last = move.value;
+    std::stable_sort(moves.begin(), moves.end(), [](const auto& a, const auto& b) {
+      return a.value != b.value ? a.value > b.value : a.exact && !b.exact;
+    });
+    return moves;
+  }
+
+  // Nodes of the last run, also of one that was aborted.
+  std::uint64_t spent() const { return spent_; }
+
+ private:
+  std::vector<RootMove<G>> children(G& game, const Node& root) {
+    std::vector<typename G::Move> list;
+    game.moves(root, list);
+    const G clean = game;  // tasks count from here on
+    std::vector<RootMove<G>> sound, struck;
+    for (const auto& move : list) {
+      RootMove<G> one{move, game.apply(root, move), 0, false, {}, {}, clean};
+      (one.child.fault > 0 ? struck : sound).push_back(std::move(one));
+    }
+    if (sound.empty() && !struck.empty()) {
+      sound.push_back(*std::min_element(
+          struck.begin(), struck.end(),
+          [](const auto& a, const auto& b) { return a.child.fault < b.child.fault; }));
+    }
+    for (const RootMove<G>& one : sound) memory_of(one.game, one.move);
+    return sound;
+  }
+
+  RootMemory<G>& memory_of(const G& game, const typename G::Move& move) {
+    const std::uint32_t key = game.key(move);
+    for (RootMemory<G>& memory : memory_) {
+      if (memory.key == key) return memory;
+    }
+    memory_.push_back({key, kWorst, std::make_unique<Search<G>>(settings_)});
+    return memory_.back();
+  }
+
+  // False when the node limit ended it.
+  bool search_move(RootMove<G>& one, std::int32_t alpha, std::uint64_t limit) {
+    if (!alpha_beta_) {
+      one.value = minimax(one.game, one.child.node, one.counts);
+      one.exact = true;
+      return limit == 0 || one.counts.nodes <= limit;
+    }
+    Search<G>& search = *memory_of(one.game, one.move).search;
+    search.set_node_limit(limit);
+    one.value = search.run(one.game, one.child.node, alpha, kBest, one.line);
+    one.exact = one.value > alpha;
+    one.counts = search.counts();
+    return !search.aborted();
+  }
+
+  SearchSettings settings_;
+  int threads_;
+  bool alpha_beta_;
+  std::uint64_t spent_ = 0;
+  std::vector<RootMemory<G>> memory_;
+};
+
+}  // namespace ringcraft

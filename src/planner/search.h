@@ -1,0 +1,309 @@
+#pragma once
+// The search core: minimax and alpha-beta over a small Game. It knows no fight.
+//
+// One side may act several times running, lines may differ in length, and a forced node has one
+// edge: so the sign goes by who acts (max or min), never by depth.
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace ringcraft {
+
+enum class Actor : std::uint8_t { maximizer, minimizer, forced };
+
+// What a move leads to. A fault above 0 strikes the child off; where all children are struck off,
+// the one with the least fault (then the first) is kept, so that no node is left without a move.
+template <class Node>
+struct Child {
+  Node node;
+  std::int32_t fault = 0;
+};
+
+// `gained`: the part of the value that the way to the node has settled. value - gained of
+// everything below a node depends on the node's hash only, so a table may hold it. `moves`: in the
+// order in which they are to be tried; a forced node has exactly one. `key`: a small number that
+// names a move wherever it is met, for killers and history.
+template <class G>
+concept Game = requires(G& game, const typename G::Node& node, const typename G::Move& move,
+                        std::vector<typename G::Move>& moves) {
+  { game.terminal(node) } -> std::same_as<bool>;
+  { game.actor(node) } -> std::same_as<Actor>;
+  { game.value(node) } -> std::same_as<std::int32_t>;
+  { game.gained(node) } -> std::same_as<std::int32_t>;
+  { game.hash(node) } -> std::same_as<std::uint64_t>;
+  { game.moves(node, moves) } -> std::same_as<void>;
+  { game.apply(node, move) } -> std::same_as<Child<typename G::Node>>;
+  { game.key(move) } -> std::same_as<std::uint32_t>;
+};
+
+inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
+inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
+
+struct SearchSettings {
+  bool table = true;             // transposition table
+  bool killers = true;           // moves that cut off at the same depth are tried early
+  bool history = true;           // so are moves that cut off anywhere
+  int table_bits = 14;           // log2 of the table's size
+  std::uint64_t node_limit = 0;  // 0 is none
+};
+
+struct SearchCounts {
+  std::uint64_t nodes = 0;   // all of them
+  std::uint64_t leaves = 0;  // terminal
+  std::uint64_t forced = 0;
+  std::uint64_t cutoffs = 0;
+  std::uint64_t table_cutoffs = 0;
+
+  SearchCounts& operator+=(const SearchCounts& o) {
+    nodes += o.nodes, leaves += o.leaves, forced += o.forced;
+    cutoffs += o.cutoffs, table_cutoffs += o.table_cutoffs;
+    return *this;
+  }
+};
+
+// Plain minimax: the definition, and what alpha-beta is tested against.
+template <Game G>
+std::int32_t minimax(G& game, const typename G::Node& node, SearchCounts& counts) {
+  ++counts.nodes;
+  if (game.terminal(node)) {
+    ++counts.leaves;
+    return game.value(node);
+  }
+  const Actor actor = game.actor(node);
+  if (actor == Actor::forced) ++counts.forced;
+  std::vector<typename G::Move> moves;
+  game.moves(node, moves);
+  const bool max = actor != Actor::minimizer;
+  std::int32_t best = max ? kWorst : kBest;
+  bool any = false;
+  std::int32_t least_fault = std::numeric_limits<std::int32_t>::max();
+  typename G::Node spare{};
+  const auto weigh = [&](const typename G::Node& child) {
+    const std::int32_t value = minimax(game, child, counts);
+    best = max ? std::max(best, value) : std::min(best, value);
+  };
+  for (const auto& move : moves) {
+    const Child<typename G::Node> child = game.apply(node, move);
+    if (child.fault > 0) {
+      if (child.fault < least_fault) least_fault = child.fault, spare = child.node;
+      continue;
+    }
+    any = true;
+    weigh(child.node);
+  }
+  if (!any) weigh(spare);
+  return best;
+}
+
+// Alpha-beta with its memory: table, killers, history. One object per task; nothing is shared.
+template <Game G>
+class Search {
+ public:
+  using Node = typename G::Node;
+  using Move = typename G::Move;
+
+  explicit Search(const SearchSettings& settings) : settings_(settings) {
+    if (settings.table) table_.resize(std::size_t{1} << settings.table_bits);
+  }
+
+  // The value of `node` if it lies in (alpha, beta); else a bound on it (fail-soft). `line` is the
+  // principal variation from the node on. Search again with a longer horizon keeps the memory of
+  // moves but not the values: say so by next_horizon().
+  std::int32_t run(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
+                   std::vector<Move>& line) {
+    aborted_ = false;
+    counts_ = {};
+    return visit(game, node, alpha, beta, 0, line);
+  }
+
+  void set_node_limit(std::uint64_t limit) { settings_.node_limit = limit; }
+  void next_horizon() { ++generation_; }
+  bool aborted() const { return aborted_; }  // the node limit ended the last run: its value is void
+  const SearchCounts& counts() const { return counts_; }  // of the last run
+
+ private:
+  enum class Bound : std::uint8_t { none, exact, lower, upper };
+  struct Entry {
+    std::uint64_t hash = 0;
+    std::int32_t value = 0;  // less what was gained on the way
+    std::uint32_t best = kNoMove;
+    std::uint32_t generation = 0;
+    Bound bound = Bound::none;
+  };
+  static constexpr std::uint32_t kNoMove = std::numeric_limits<std::uint32_t>::max();
+  // Buffers of one depth, kept between visits so that nothing is allocated in the inner loop.
+  struct Level {
+    std::vector<Move> moves;
+    std::vector<Move> line;
+    std::array<std::uint32_t, 2> killers{kNoMove, kNoMove};
+  };
+
+  Level& level(std::size_t depth) {
+    while (levels_.size() <= depth) levels_.push_back(std::make_unique<Level>());
+    return *levels_[depth];
+  }
+
+  Entry* entry_of(std::uint64_t hash) {
+    return settings_.table ? &table_[hash & (table_.size() - 1)] : nullptr;
+  }
+
+  std::int32_t visit(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
+                     std::size_t depth, std::vector<Move>& line) {
+    line.clear();
+    ++counts_.nodes;
+    if (settings_.node_limit != 0 && counts_.nodes > settings_.node_limit) aborted_ = true;
+    if (aborted_) return 0;
+    if (game.terminal(node)) {
+      ++counts_.leaves;
+      return game.value(node);
+    }
+    const Actor actor = game.actor(node);
+    if (actor == Actor::forced) return visit_forced(game, node, alpha, beta, depth, line);
+
+    const std::int32_t gained = game.gained(node);
+    const std::uint64_t hash = settings_.table ? game.hash(node) : 0;
+    Entry* entry = entry_of(hash);
+    std::uint32_t first = kNoMove;
+    if (entry != nullptr && entry->bound != Bound::none && entry->hash == hash) {
+      first = entry->best;
+      const std::int32_t value = entry->value + gained;
+      if (entry->generation == generation_ &&
+          (entry->bound == Bound::exact || (entry->bound == Bound::lower && value >= beta) ||
+           (entry->bound == Bound::upper && value <= alpha))) {
+        ++counts_.table_cutoffs;
+        return value;
+      }
+    }
+    const Found found = visit_children(game, node, actor, alpha, beta, depth, first, line);
+    if (!aborted_ && entry != nullptr) {
+      const Bound bound = found.value <= alpha  ? Bound::upper
+                          : found.value >= beta ? Bound::lower
+                                                : Bound::exact;
+      *entry = {hash, found.value - gained, found.best, generation_, bound};
+    }
+    return found.value;
+  }
+
+  // A forced node spends time, not a ply: the window passes through it.
+  std::int32_t visit_forced(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
+                            std::size_t depth, std::vector<Move>& line) {
+    ++counts_.forced;
+    Level& here = level(depth);
+    here.moves.clear();
+    game.moves(node, here.moves);
+    const Move move = here.moves.front();
+    const std::int32_t value =
+        visit(game, game.apply(node, move).node, alpha, beta, depth + 1, here.line);
+    line.push_back(move);
+    line.insert(line.end(), here.line.begin(), here.line.end());
+    return value;
+  }
+
+  struct Found {
+    std::int32_t value = 0;
+    std::uint32_t best = kNoMove;
+  };
+
+  Found visit_children(G& game, const Node& node, Actor actor, std::int32_t alpha,
+                       std::int32_t beta, std::size_t depth, std::uint32_t first,
+                       std::vector<Move>& line) {
+    Level& here = level(depth);
+    here.moves.clear();
+    game.moves(node, here.moves);
+    order(game, here, actor, first);
+    const bool max = actor == Actor::maximizer;
+    Found found{max ? kWorst : kBest, kNoMove};
+    bool any = false;
+    std::int32_t least_fault = std::numeric_limits<std::int32_t>::max();
+    Node spare{};
+    std::size_t spare_index = 0;
+    // True when the window is closed and the rest need not be looked at.
+    const auto weigh = [&](const Node& child, const Move& move) {
+      const std::int32_t value = visit(game, child, alpha, beta, depth + 1, here.line);
+      if (aborted_) return true;
+      if (max ? value > found.value : value < found.value) {
+        found = {value, game.key(move)};
+        line.assign(1, move);
+        line.insert(line.end(), here.line.begin(), here.line.end());
+      }
+      if (max) {
+        alpha = std::max(alpha, value);
+      } else {
+        beta = std::min(beta, value);
+      }
+      return alpha >= beta;
+    };
+    for (std::size_t i = 0; i < here.moves.size(); ++i) {
+      const Move move = here.moves[i];
+      const Child<Node> child = game.apply(node, move);
+      if (child.fault > 0) {
+        if (child.fault < least_fault) {
+          least_fault = child.fault, spare = child.node, spare_index = i;
+        }
+        continue;
+      }
+      any = true;
+      if (weigh(child.node, move)) {
+        if (!aborted_) note_cutoff(here, actor, game.key(move));
+        return found;
+      }
+    }
+    if (!any) weigh(spare, here.moves[spare_index]);
+    return found;
+  }
+
+  // Table move, killers, then the game's own order, in which history moves a candidate up by at
+  // most two places. Stable: the same moves in the same state always come in the same order.
+  void order(G& game, Level& here, Actor actor, std::uint32_t first) {
+    std::vector<Rank>& ranks = ranks_;
+    ranks.clear();
+    const auto& history = history_[actor == Actor::maximizer ? 0 : 1];
+    const std::uint64_t most = history_most_[actor == Actor::maximizer ? 0 : 1];
+    for (std::size_t i = 0; i < here.moves.size(); ++i) {
+      const std::uint32_t key = game.key(here.moves[i]);
+      std::int64_t place = static_cast<std::int64_t>(i) * 1024;
+      if (settings_.history && key < history.size()) {
+        place -= static_cast<std::int64_t>(2048 * history[key] / (most + 1));
+      }
+      if (settings_.killers && (key == here.killers[0] || key == here.killers[1])) place -= 1 << 20;
+      if (key == first) place -= 1 << 21;
+      ranks.push_back({place, here.moves[i]});
+    }
+    for (std::size_t i = 1; i < ranks.size(); ++i) {  // insertion: few, and stable
+      for (std::size_t j = i; j > 0 && ranks[j].place < ranks[j - 1].place; --j) {
+        std::swap(ranks[j], ranks[j - 1]);
+      }
+    }
+    for (std::size_t i = 0; i < ranks.size(); ++i) here.moves[i] = ranks[i].move;
+  }
+
+  void note_cutoff(Level& here, Actor actor, std::uint32_t key) {
+    ++counts_.cutoffs;
+    if (here.killers[0] != key) here.killers = {key, here.killers[0]};
+    const std::size_t side = actor == Actor::maximizer ? 0 : 1;
+    if (history_[side].size() <= key) history_[side].resize(key + 1);
+    history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
+  }
+
+  struct Rank {
+    std::int64_t place;
+    Move move;
+  };
+
+  SearchSettings settings_;
+  SearchCounts counts_;
+  bool aborted_ = false;
+  std::uint32_t generation_ = 0;
+  std::vector<Entry> table_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::array<std::vector<std::uint64_t>, 2> history_;
+  std::array<std::uint64_t, 2> history_most_{};
+  std::vector<Rank> ranks_;  // of order()
+};
+
+}  // namespace ringcraft
