@@ -1,0 +1,104 @@
+// Cameras: two that the mouse moves (orbit, follow), and views that keep the fight in frame.
+import { Vector3 } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+
+export const CAMERAS = {
+  follow: 'Follow',
+  side: 'Side',
+  front: 'Front',
+  top: 'Top',
+  ring: 'Ring',
+  orbit: 'Orbit',
+};
+const LOOK = 0.95;  // m: height of the point looked at
+
+export class Cameras {
+  constructor(stage, cast, changed) {
+    this.stage = stage;
+    this.cast = cast;
+    this.changed = changed;
+    this.name = 'follow';
+    this.span = 1;
+    this.controls = new OrbitControls(stage.camera, stage.canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.12;
+    this.controls.minDistance = 0.6;
+    this.controls.maxDistance = 18;
+    this.controls.maxPolarAngle = Math.PI * 0.53;
+    this.controls.addEventListener('change', () => this.changed());
+    // A hand on a view that moves by itself takes it over from where it is.
+    this.controls.addEventListener('start', () => {
+      if (this.name !== 'orbit' && this.name !== 'follow') this.set('orbit', true);
+    });
+    this.target = new Vector3(0, LOOK, 0);
+  }
+
+  // Metres from the target at which `width` metres across and a standing body fit the picture.
+  distance(width) {
+    const half = Math.tan((this.stage.camera.fov * Math.PI) / 360);
+    return Math.max(2.25 / (2 * half), width / (2 * half * this.stage.camera.aspect));
+  }
+
+  // How far apart the fighters are, smoothed, plus room for arms.
+  spread(t) {
+    const f = Math.round(t * this.cast.rate);
+    let widest = 0;
+    for (let k = -24; k <= 24; k += 8) {
+      const at = this.cast.at(f + k);
+      for (const a of at) for (const b of at) widest = Math.max(widest, a.hips.distanceTo(b.hips));
+    }
+    return widest + 1.5;
+  }
+
+  set(name, keep = false) {
+    if (!(name in CAMERAS)) return false;
+    this.name = name;
+    if (!keep && (name === 'follow' || name === 'orbit')) this.place(this.cast.time < 0 ? 0 : this.cast.time);
+    this.changed('name');
+    return true;
+  }
+
+  // Three quarters from the front, the fighters' axis across the picture.
+  place(t) {
+    const centre = this.cast.centre(t).setY(LOOK);
+    const across = this.cast.axis(t);
+    const out = new Vector3(across.z, 0, -across.x);
+    if (out.dot(new Vector3(0.5, 0, 1)) < 0) out.negate();  // the side the key light is on
+    const from = out.applyAxisAngle(new Vector3(0, 1, 0), 0.42).multiplyScalar(this.distance(this.spread(t)) * 1.12);
+    this.stage.camera.position.copy(centre).add(from).setY(LOOK + 0.75);
+    this.target.copy(centre);
+    this.controls.target.copy(centre);
+    this.controls.update();
+  }
+
+  // Puts the camera where the chosen view has it at time t.
+  update(t) {
+    const { camera } = this.stage;
+    const centre = this.cast.centre(t).setY(LOOK);
+    const axis = this.cast.axis(t);
+    const side = new Vector3(axis.z, 0, -axis.x);
+    const away = this.distance(this.spread(t));
+    if (this.name === 'follow') {
+      const moved = centre.clone().sub(this.target);
+      moved.y = 0;
+      camera.position.add(moved);
+      this.controls.target.add(moved);
+      this.target.copy(centre);
+    } else if (this.name === 'side') {
+      this.look(centre, side.multiplyScalar(away), 0.12);
+    } else if (this.name === 'front') {
+      this.look(centre, axis.multiplyScalar(away * 1.05).addScaledVector(side, away * 0.38), 0.55);
+    } else if (this.name === 'top') {
+      this.look(centre, side.multiplyScalar(0.6), away * 1.25);
+    } else if (this.name === 'ring') {
+      this.look(new Vector3(0, 0.45, 0), new Vector3(5.4, 0, 7.2), 3.6);
+    }
+    this.controls.update();
+  }
+
+  look(at, offset, height) {
+    this.stage.camera.position.copy(at).add(offset).setY(at.y + height);
+    this.controls.target.copy(at);
+    this.target.copy(at);
+  }
+}
