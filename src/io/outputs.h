@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "fight/timeline.h"
 #include "physics/body.h"
 
@@ -20,9 +21,15 @@ struct FighterLook {
   Vec3 skin{0.55f, 0.36f, 0.26f};
 };
 
-// One skinned mannequin per fighter (node `fighter0` ...), canonical bone names, one animation, 60 Hz
-// LINEAR, baked; events in animations[0].extras. Bytes of a .glb.
-std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& looks);
+struct GlbSettings {
+  float ring_half = 0;  // m: half the side of a ring of plain boxes (node `ring`); 0 is no ring
+};
+
+// One skinned mannequin per fighter (node `fighter0` ... holds the skeleton and extras with the
+// capsules, node `fighter0_mesh` the mesh), canonical bone names, one animation, 60 Hz LINEAR,
+// baked; events in animations[0].extras. Bytes of a .glb.
+std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& looks,
+                      const GlbSettings& settings = {});
 
 // A header line, then one JSON object per event.
 std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook>& looks,

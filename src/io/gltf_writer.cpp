@@ -1,0 +1,411 @@
+// The one writer of glTF.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <tiny_gltf.h>
+
+#include "io/events.h"
+#include "io/mannequin.h"
+#include "io/outputs.h"
+#include "io/ring.h"
+
+namespace ringcraft {
+
+namespace {
+
+constexpr Tick kTicksPerKey = 2;  // 60 Hz
+
+tinygltf::Value value_of(const nlohmann::json& json) {
+  if (json.is_boolean()) return tinygltf::Value(json.get<bool>());
+  if (json.is_number_integer()) {
+    const double number = json.get<double>();
+    if (std::abs(number) <= std::numeric_limits<int>::max()) {
+      return tinygltf::Value(static_cast<int>(number));
+    }
+    return tinygltf::Value(number);
+  }
+  if (json.is_number()) return tinygltf::Value(json.get<double>());
+  if (json.is_string()) return tinygltf::Value(json.get<std::string>());
+  if (json.is_array()) {
+    tinygltf::Value::Array array;
+    for (const nlohmann::json& element : json) array.push_back(value_of(element));
+    return tinygltf::Value(std::move(array));
+  }
+  tinygltf::Value::Object object;
+  for (const auto& [key, element] : json.items()) object[key] = value_of(element);
+  return tinygltf::Value(std::move(object));
+}
+
+// Text that is surely UTF-8: a name may come from anywhere.
+std::string clean(const std::string& text) {
+  const std::string quoted =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json::parse(quoted).get<std::string>();
+}
+
+struct Format {
+  int component = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  int type = TINYGLTF_TYPE_VEC3;
+  int target = 0;  // of the buffer view; 0 for what is no vertex data
+  bool normalized = false;
+};
+constexpr Format kVertexVec3{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
+                             TINYGLTF_TARGET_ARRAY_BUFFER, false};
+constexpr Format kIndices{TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                          TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false};
+constexpr Format kShades{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
+                         TINYGLTF_TARGET_ARRAY_BUFFER, true};
+constexpr Format kJoints{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
+                         TINYGLTF_TARGET_ARRAY_BUFFER, false};
+constexpr Format kWeights{TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                          TINYGLTF_TARGET_ARRAY_BUFFER, true};
+constexpr Format kKeyTimes{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 0, false};
+constexpr Format kKeyVec3{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, 0, false};
+constexpr Format kKeyQuat{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, 0, false};
+constexpr Format kMatrices{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, 0, false};
+
+class GlbBuilder {
+ public:
+  GlbBuilder() {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "ringcraft " RINGCRAFT_VERSION;
+    model_.buffers.emplace_back();
+    model_.scenes.emplace_back();
+    model_.scenes[0].name = "fight";
+    model_.defaultScene = 0;
+    model_.animations.emplace_back();
+    model_.animations[0].name = "fight";
+  }
+
+  // Nodes, mesh, skin and channels of one fighter.
+  void add_fighter(std::size_t number, const FighterLook& look, const FighterTrack& track);
+  void add_ring(float half);
+  // Key times, shared by all fighters: `count` keys at 60 Hz.
+  void set_key_count(std::size_t count);
+  void set_events(const Timeline& timeline);
+  std::string bytes();
+
+ private:
+  // Writes `count` elements as one buffer view with one accessor; returns the accessor.
+  template <class Element>
+  int add_data(const std::vector<Element>& elements, const Format& format, bool bounds = false);
+  void set_bounds(tinygltf::Accessor& accessor, const float* numbers, int components) const;
+  int add_node(tinygltf::Node node) {
+    model_.nodes.push_back(std::move(node));
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+  int add_material(const std::string& name, Vec3 colour, double roughness);
+  int add_mesh(const std::string& name, const FighterLook& look);
+  int add_skeleton(const Skeleton& skeleton, std::array<int, kJointCount>& nodes);
+  void add_channel(int node, const char* path, int input, int output);
+  void add_motion(const std::array<int, kJointCount>& nodes, const FighterTrack& track);
+
+  tinygltf::Model model_;
+  std::size_t key_count_ = 1;
+  int key_times_ = -1;    // accessor of all key times
+  int single_time_ = -1;  // accessor of the one key of a constant track
+};
+
+template <class Element>
+int GlbBuilder::add_data(const std::vector<Element>& elements, const Format& format, bool bounds) {
+  std::vector<unsigned char>& data = model_.buffers[0].data;
+  while (data.size() % 4 != 0) data.push_back(0);
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = data.size();
+  view.byteLength = elements.size() * sizeof(Element);
+  view.target = format.target;
+  data.resize(data.size() + view.byteLength);
+  std::memcpy(data.data() + view.byteOffset, elements.data(), view.byteLength);
+  model_.bufferViews.push_back(view);
+
+  tinygltf::Accessor accessor;
+  accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+  accessor.componentType = format.component;
+  accessor.type = format.type;
+  accessor.normalized = format.normalized;
+  accessor.count = elements.size();
+  if (bounds) {
+    set_bounds(accessor, reinterpret_cast<const float*>(elements.data()),
+               tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(format.type)));
+  }
+  model_.accessors.push_back(accessor);
+  return static_cast<int>(model_.accessors.size()) - 1;
+}
+
+void GlbBuilder::set_bounds(tinygltf::Accessor& accessor, const float* numbers,
+                            int components) const {
+  for (int c = 0; c < components; ++c) {
+    float low = numbers[c], high = numbers[c];
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+      const float number = numbers[i * static_cast<std::size_t>(components) + c];
+      low = std::min(low, number);
+      high = std::max(high, number);
+    }
+    accessor.minValues.push_back(low);
+    accessor.maxValues.push_back(high);
+  }
+}
+
+int GlbBuilder::add_material(const std::string& name, Vec3 colour, double roughness) {
+  tinygltf::Material material;
+  material.name = name;
+  const Vec3 shown = glm::clamp(colour, Vec3{0}, Vec3{1});
+  material.pbrMetallicRoughness.baseColorFactor = {rounded(shown.x, 5), rounded(shown.y, 5),
+                                                   rounded(shown.z, 5), 1.0};
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = roughness;
+  model_.materials.push_back(material);
+  return static_cast<int>(model_.materials.size()) - 1;
+}
+
+struct Finish {
+  Vec3 colour{};
+  double roughness = 0.8;
+};
+Finish finish_of(const FighterLook& look, Region region) {
+  switch (region) {
+    case Region::skin:
+      return {look.skin, 0.62};
+    case Region::shorts:
+      return {look.shorts, 0.55};
+    case Region::gloves:
+      return {look.gloves, 0.38};
+    case Region::trim:
+      return {{0.66f, 0.65f, 0.62f}, 0.75};
+    case Region::hair:
+      return {0.12f * look.skin * look.skin + Vec3{0.008f}, 0.9};
+    case Region::eye_white:
+      return {{0.70f, 0.68f, 0.65f}, 0.25};
+    case Region::iris:
+      return {{0.02f, 0.012f, 0.008f}, 0.15};
+  }
+  return {};
+}
+
+int GlbBuilder::add_mesh(const std::string& name, const FighterLook& look) {
+  const auto mannequin = mannequin_of(look.body);
+  tinygltf::Mesh mesh;
+  mesh.name = name;
+  for (const MannequinPiece& piece : mannequin->pieces) {
+    std::vector<std::array<std::uint8_t, 4>> joints;
+    std::vector<std::array<std::uint16_t, 4>> shares;
+    for (const SkinWeights& weights : piece.weights) {
+      joints.push_back(weights.joint);
+      shares.push_back(weights.share);
+    }
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = add_data(piece.position, kVertexVec3, true);
+    primitive.attributes["NORMAL"] = add_data(piece.normal, kVertexVec3);
+    primitive.attributes["COLOR_0"] = add_data(piece.shade, kShades);
+    primitive.attributes["JOINTS_0"] = add_data(joints, kJoints);
+    primitive.attributes["WEIGHTS_0"] = add_data(shares, kWeights);
+    primitive.indices = add_data(piece.triangles, kIndices);
+    const Finish finish = finish_of(look, piece.region);
+    primitive.material = add_material(name + "_" + std::string(name_of(piece.region)),
+                                      finish.colour, finish.roughness);
+    mesh.primitives.push_back(std::move(primitive));
+  }
+  model_.meshes.push_back(std::move(mesh));
+  return static_cast<int>(model_.meshes.size()) - 1;
+}
+
+int GlbBuilder::add_skeleton(const Skeleton& skeleton, std::array<int, kJointCount>& nodes) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    tinygltf::Node node;
+    node.name = std::string(vrm_name(joint_at(i)));
+    const Vec3 offset = skeleton.offset[i];
+    node.translation = {offset.x, offset.y, offset.z};
+    nodes[i] = add_node(std::move(node));
+    if (kParent[i] >= 0) {
+      model_.nodes[nodes[static_cast<std::size_t>(kParent[i])]].children.push_back(nodes[i]);
+    }
+  }
+  const WorldPose rest = world_pose(skeleton, rest_pose(skeleton));
+  std::vector<std::array<float, 16>> matrices;
+  for (const Vec3& joint : rest.position) {
+    matrices.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -joint.x, -joint.y, -joint.z, 1});
+  }
+  tinygltf::Skin skin;
+  skin.joints.assign(nodes.begin(), nodes.end());
+  skin.inverseBindMatrices = add_data(matrices, kMatrices);
+  model_.skins.push_back(std::move(skin));
+  return static_cast<int>(model_.skins.size()) - 1;
+}
+
+// The capsules that the contact test uses, for overlays.
+nlohmann::json capsules_json(const BodyModel& body) {
+  nlohmann::json capsules = nlohmann::json::array();
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const PartModel& part = body.parts[i];
+    const auto point = [](Vec3 p) {
+      return nlohmann::json::array({rounded(p.x, 4), rounded(p.y, 4), rounded(p.z, 4)});
+    };
+    capsules.push_back({{"part", name_of(part_at(i))},
+                        {"joint", vrm_name(joint_of(part_at(i)))},
+                        {"a", point(part.capsule_a)},
+                        {"b", point(part.capsule_b)},
+                        {"radius", rounded(part.radius, 4)}});
+  }
+  return capsules;
+}
+
+void GlbBuilder::add_fighter(std::size_t number, const FighterLook& look,
+                             const FighterTrack& track) {
+  const std::string name = "fighter" + std::to_string(number);
+  std::array<int, kJointCount> nodes{};
+  const int skin = add_skeleton(look.body.skeleton, nodes);
+  tinygltf::Node root;
+  root.name = name;
+  root.children = {nodes[0]};
+  root.extras = value_of({{"name", clean(look.name)},
+                          {"height_m", rounded(look.body.spec.height, 3)},
+                          {"mass_kg", rounded(look.body.spec.mass, 2)},
+                          {"capsules", capsules_json(look.body)}});
+  const int root_node = add_node(std::move(root));
+  model_.skins[skin].name = name;
+  model_.skins[skin].skeleton = root_node;
+
+  tinygltf::Node mesh;
+  mesh.name = name + "_mesh";
+  mesh.mesh = add_mesh(name, look);
+  mesh.skin = skin;
+  const int mesh_node = add_node(std::move(mesh));
+  model_.scenes[0].nodes.push_back(root_node);
+  model_.scenes[0].nodes.push_back(mesh_node);
+  add_motion(nodes, track);
+}
+
+void GlbBuilder::set_key_count(std::size_t count) {
+  key_count_ = std::max<std::size_t>(count, 1);
+  std::vector<float> times;
+  for (std::size_t i = 0; i < key_count_; ++i) {
+    times.push_back(static_cast<float>(static_cast<double>(i) * kTicksPerKey / kTicksPerSecond));
+  }
+  key_times_ = add_data(times, kKeyTimes, true);
+  single_time_ = add_data(std::vector<float>{0}, kKeyTimes, true);
+}
+
+void GlbBuilder::add_channel(int node, const char* path, int input, int output) {
+  tinygltf::Animation& animation = model_.animations[0];
+  tinygltf::AnimationSampler sampler;
+  sampler.input = input;
+  sampler.output = output;
+  sampler.interpolation = "LINEAR";
+  tinygltf::AnimationChannel channel;
+  channel.sampler = static_cast<int>(animation.samplers.size());
+  channel.target_node = node;
+  channel.target_path = path;
+  animation.samplers.push_back(std::move(sampler));
+  animation.channels.push_back(std::move(channel));
+}
+
+// Unit in double precision, so that rounding to float leaves no drift; x, y, z, w.
+std::array<float, 4> key_of(Quat rotation) {
+  const double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  if (!(length > 1e-6)) return {0, 0, 0, 1};
+  return {static_cast<float>(x / length), static_cast<float>(y / length),
+          static_cast<float>(z / length), static_cast<float>(w / length)};
+}
+
+template <class Key>
+bool constant(const std::vector<Key>& keys) {
+  return std::all_of(keys.begin(), keys.end(), [&](const Key& key) {
+    for (std::size_t c = 0; c < key.size(); ++c) {
+      if (std::abs(key[c] - keys[0][c]) > 1e-6f) return false;
+    }
+    return true;
+  });
+}
+
+void GlbBuilder::add_motion(const std::array<int, kJointCount>& nodes, const FighterTrack& track) {
+  if (track.frames.empty()) return;
+  const auto frame_at = [&](std::size_t key) -> const Pose& {
+    return track.frames[std::min(key * kTicksPerKey, track.frames.size() - 1)];
+  };
+  std::vector<std::array<float, 3>> places;
+  for (std::size_t key = 0; key < key_count_; ++key) {
+    const Vec3 hips = frame_at(key).hips;
+    places.push_back({hips.x, hips.y, hips.z});
+  }
+  const bool still = constant(places);
+  if (still) places.resize(1);
+  add_channel(nodes[0], "translation", still ? single_time_ : key_times_,
+              add_data(places, kKeyVec3));
+  for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+    std::vector<std::array<float, 4>> keys;
+    Quat last{1, 0, 0, 0};
+    for (std::size_t key = 0; key < key_count_; ++key) {
+      last = in_hemisphere_of(frame_at(key).rotation[joint], last);
+      keys.push_back(key_of(last));
+    }
+    const bool one = constant(keys);
+    if (one) keys.resize(1);
+    add_channel(nodes[joint], "rotation", one ? single_time_ : key_times_,
+                add_data(keys, kKeyQuat));
+  }
+}
+
+void GlbBuilder::add_ring(float half) {
+  tinygltf::Mesh mesh;
+  mesh.name = "ring";
+  for (const RingPart& part : make_ring(half)) {
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = add_data(part.position, kVertexVec3, true);
+    primitive.attributes["NORMAL"] = add_data(part.normal, kVertexVec3);
+    primitive.indices = add_data(part.triangles, kIndices);
+    primitive.material =
+        add_material(std::string("ring_") + part.name, part.colour, rounded(part.roughness, 3));
+    mesh.primitives.push_back(std::move(primitive));
+  }
+  model_.meshes.push_back(std::move(mesh));
+  tinygltf::Node node;
+  node.name = "ring";
+  node.mesh = static_cast<int>(model_.meshes.size()) - 1;
+  model_.scenes[0].nodes.push_back(add_node(std::move(node)));
+}
+
+void GlbBuilder::set_events(const Timeline& timeline) {
+  nlohmann::json events = nlohmann::json::array();
+  for (const Event& event : timeline.events) {
+    nlohmann::json object = event_json(event, false);
+    // The writer's JSON must be UTF-8 throughout.
+    object["action"] = clean(event.action);
+    if (object.contains("part")) object["part"] = clean(event.part);
+    events.push_back(std::move(object));
+  }
+  model_.animations[0].extras =
+      value_of({{"ticks_per_second", kTicksPerSecond}, {"events", std::move(events)}});
+}
+
+std::string GlbBuilder::bytes() {
+  std::ostringstream stream(std::ios::binary);
+  tinygltf::TinyGLTF writer;
+  writer.WriteGltfSceneToStream(&model_, stream, false, true);
+  return std::move(stream).str();
+}
+
+}  // namespace
+
+std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& looks,
+                      const GlbSettings& settings) {
+  GlbBuilder builder;
+  std::size_t frames = 1;
+  for (const FighterTrack& track : timeline.tracks) frames = std::max(frames, track.frames.size());
+  builder.set_key_count((frames + kTicksPerKey - 1) / kTicksPerKey);
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    builder.add_fighter(i, looks[i],
+                        i < timeline.tracks.size() ? timeline.tracks[i] : FighterTrack{});
+  }
+  if (settings.ring_half > 0) builder.add_ring(settings.ring_half);
+  builder.set_events(timeline);
+  return builder.bytes();
+}
+
+}  // namespace ringcraft

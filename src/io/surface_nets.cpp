@@ -1,0 +1,177 @@
+#include "io/surface_nets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ringcraft {
+
+namespace {
+
+constexpr int kBlock =
+    4;  // cells per side of a block that is skipped whole when far from the surface
+
+// Grid lines from `low` to `high` with the spacing of the span they lie in.
+std::vector<float> grid_lines(float low, float high, float spacing,
+                              const std::vector<GridSpan>& spans) {
+  std::vector<float> lines{low};
+  while (lines.back() < high) {
+    const float at = lines.back();
+    float step = spacing;
+    for (const GridSpan& span : spans) {
+      if (at >= span.begin - 0.5f * step && at < span.end) step = std::min(step, span.spacing);
+    }
+    lines.push_back(at + step);
+  }
+  return lines;
+}
+
+// The same, symmetric about zero, which lies in the middle of a cell.
+std::vector<float> symmetric_lines(float high, float spacing, const std::vector<GridSpan>& spans) {
+  float middle = spacing;
+  for (const GridSpan& span : spans) {
+    if (span.begin <= 0) middle = std::min(middle, span.spacing);
+  }
+  const std::vector<float> right = grid_lines(0.5f * middle, high, spacing, spans);
+  std::vector<float> lines;
+  for (auto at = right.rbegin(); at != right.rend(); ++at) lines.push_back(-*at);
+  lines.insert(lines.end(), right.begin(), right.end());
+  return lines;
+}
+
+class Net {
+ public:
+  Net(const DistanceField& field, const GridPlan& plan) : field_(field) {
+    const float margin = 1.5f * plan.spacing;
+    lines_[0] = symmetric_lines(field.high().x + margin, plan.spacing, plan.x);
+    lines_[1] = grid_lines(field.low().y - margin, field.high().y + margin, plan.spacing, plan.y);
+    lines_[2] = grid_lines(field.low().z - margin, field.high().z + margin, plan.spacing, plan.z);
+    for (int axis = 0; axis < 3; ++axis) size_[axis] = static_cast<int>(lines_[axis].size());
+    values_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], 1.0f);
+    vertex_.assign(values_.size(), -1);
+  }
+
+  SurfaceMesh build() {
+    sample();
+    for (int z = 0; z + 1 < size_[2]; ++z) {
+      for (int y = 0; y + 1 < size_[1]; ++y) {
+        for (int x = 0; x + 1 < size_[0]; ++x) place_vertex({x, y, z});
+      }
+    }
+    for (int z = 1; z + 1 < size_[2]; ++z) {
+      for (int y = 1; y + 1 < size_[1]; ++y) {
+        for (int x = 1; x + 1 < size_[0]; ++x) {
+          for (int axis = 0; axis < 3; ++axis) add_quad({x, y, z}, axis);
+        }
+      }
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  std::size_t index(Cell c) const {
+    return (static_cast<std::size_t>(c[2]) * size_[1] + c[1]) * size_[0] + c[0];
+  }
+  Vec3 corner(Cell c) const { return {lines_[0][c[0]], lines_[1][c[1]], lines_[2][c[2]]}; }
+
+  // Values at the grid's points. A block whose centre is far from the surface gets the centre's
+  // value.
+  void sample() {
+    for (int z = 0; z < size_[2]; z += kBlock) {
+      for (int y = 0; y < size_[1]; y += kBlock) {
+        for (int x = 0; x < size_[0]; x += kBlock) sample_block({x, y, z});
+      }
+    }
+  }
+  void sample_block(Cell first) {
+    Cell last;
+    for (int axis = 0; axis < 3; ++axis) {
+      last[axis] = std::min(first[axis] + kBlock - 1, size_[axis] - 1);
+    }
+    const Vec3 low = corner(first), high = corner(last);
+    const float middle = field_.at(0.5f * (low + high));
+    // Twice the half diagonal: the field is a bound, and its value may grow faster than the
+    // distance.
+    const bool near = std::abs(middle) < glm::length(high - low) + 0.01f;
+    for (int z = first[2]; z <= last[2]; ++z) {
+      for (int y = first[1]; y <= last[1]; ++y) {
+        for (int x = first[0]; x <= last[0]; ++x) {
+          values_[index({x, y, z})] = near ? field_.at(corner({x, y, z})) : middle;
+        }
+      }
+    }
+  }
+
+  // A vertex where the surface crosses the cell: the mean of the edge crossings, then two steps
+  // onto the surface that may not leave the cell.
+  void place_vertex(Cell cell) {
+    Vec3 sum{};
+    int crossings = 0;
+    for (int edge = 0; edge < 12; ++edge) {
+      const int axis = edge / 4;
+      Cell a = cell;
+      a[(axis + 1) % 3] += edge & 1;
+      a[(axis + 2) % 3] += (edge >> 1) & 1;
+      Cell b = a;
+      ++b[axis];
+      const float va = values_[index(a)], vb = values_[index(b)];
+      if ((va < 0) == (vb < 0)) continue;
+      const float share = va / (va - vb);
+      sum += corner(a) + share * (corner(b) - corner(a));
+      ++crossings;
+    }
+    if (crossings == 0) return;
+    Vec3 point = sum / static_cast<float>(crossings);
+    const Vec3 low = corner(cell), high = corner({cell[0] + 1, cell[1] + 1, cell[2] + 1});
+    const float step = 0.1f * (high.x - low.x);
+    for (int i = 0; i < 2; ++i) {
+      point = glm::clamp(point - field_.at(point) * field_.normal(point, step), low, high);
+    }
+    vertex_[index(cell)] = static_cast<int>(mesh_.position.size());
+    mesh_.position.push_back(point);
+    mesh_.normal.push_back(field_.normal(point, 0.003f));
+  }
+
+  // The quad around the grid edge from `point` along `axis`, when the surface crosses it.
+  void add_quad(Cell point, int axis) {
+    Cell beyond = point;
+    ++beyond[axis];
+    const bool inside = values_[index(point)] < 0;
+    if (inside == (values_[index(beyond)] < 0)) return;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<std::uint32_t, 4> corners{};
+    constexpr std::array<std::array<int, 2>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Cell cell = point;
+      cell[u] += kAround[i][0];
+      cell[v] += kAround[i][1];
+      corners[i] = static_cast<std::uint32_t>(vertex_[index(cell)]);
+    }
+    if (!inside) std::swap(corners[1], corners[3]);
+    const auto& p = mesh_.position;
+    const bool first_diagonal = glm::distance2(p[corners[0]], p[corners[2]]) <=
+                                glm::distance2(p[corners[1]], p[corners[3]]);
+    const std::array<std::size_t, 6> order = first_diagonal
+                                                 ? std::array<std::size_t, 6>{0, 1, 2, 0, 2, 3}
+                                                 : std::array<std::size_t, 6>{1, 2, 3, 1, 3, 0};
+    for (const std::size_t i : order) mesh_.triangles.push_back(corners[i]);
+  }
+
+  const DistanceField& field_;
+  std::array<std::vector<float>, 3> lines_;
+  std::array<int, 3> size_{};
+  std::vector<float> values_;
+  std::vector<int> vertex_;
+  SurfaceMesh mesh_;
+};
+
+}  // namespace
+
+SurfaceMesh surface_nets(const DistanceField& field, const GridPlan& plan) {
+  if (field.empty()) return {};
+  return Net(field, plan).build();
+}
+
+}  // namespace ringcraft
