@@ -208,7 +208,7 @@ class Checker {
       const auto property = properties.find(key);
       std::string remedy = "add it";
       if (property != properties.end()) remedy += ": " + remedy_for(resolved(*property));
-      add(FaultKind::other, pointer, "key '" + key + "' is missing in " + name, remedy);
+      add(FaultKind::other, pointer, fmt::format("key '{}' is missing in {}", key, name), remedy);
     }
     if (schema.contains("minProperties") && value.size() < schema["minProperties"]) {
       add(FaultKind::other, pointer, name + " is empty", remedy_for(schema));
