@@ -7,7 +7,7 @@ async function contactSheet(page, { times, camera = 'side', width = 320, height 
   const before = { camera: cameras.name, time: page.player.time, on: page.overlays.names().filter((n) => page.overlays.on(n)) };
   stage.setShadows(shadows);
   stage.resize(width, height, 1);
-  for (const name of overlays) page.overlays.set(name, true);
+  for (const name of page.overlays.names()) page.overlays.set(name, name === 'ropes' || overlays.includes(name));
   const across = columns ?? Math.max(1, Math.min(times.length, Math.floor(1920 / width)));
   const sheet = document.createElement('canvas');
   sheet.width = across * width;
@@ -22,12 +22,12 @@ async function contactSheet(page, { times, camera = 'side', width = 320, height 
     if (i === 0 || camera !== 'follow') cameras.set(camera);
     page.drawStage(t);
     g.drawImage(stage.canvas, x, y, width, height);
-    g.fillStyle = 'rgba(0,0,0,.55)';
-    g.fillRect(x, y, 62, 22);
-    g.fillStyle = '#fff';
-    g.fillText(`${t.toFixed(2)} s`, x + 6, y + 4);
     const told = page.story.events.findLast((e) => Math.abs(e.t - t) < 0.04 && !['decision', 'strike'].includes(e.type));
-    if (told) g.fillText(told.type, x + 70, y + 4);
+    const words = `${t.toFixed(2)} s${told ? `  ${told.type}` : ''}`;
+    g.fillStyle = 'rgba(0,0,0,.55)';
+    g.fillRect(x, y, g.measureText(words).width + 12, 22);
+    g.fillStyle = '#fff';
+    g.fillText(words, x + 6, y + 4);
     g.strokeStyle = 'rgba(255,255,255,.14)';
     g.strokeRect(x + 0.5, y + 0.5, width - 1, height - 1);
   });

@@ -76,7 +76,7 @@ export class Cameras {
     const { camera } = this.stage;
     const centre = this.cast.centre(t).setY(LOOK);
     const axis = this.cast.axis(t);
-    const side = new Vector3(axis.z, 0, -axis.x);
+    const side = new Vector3(-axis.z, 0, axis.x);  // seen from here the first fighter stands at the left
     const away = this.distance(this.spread(t));
     if (this.name === 'follow') {
       const moved = centre.clone().sub(this.target);

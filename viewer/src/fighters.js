@@ -36,19 +36,14 @@ class Fighter {
     this.node = node;
     this.colour = colour;
     this.joints = new Map();
-    this.meshes = [];
+    const know = (child) => {
+      const joint = nameOf(child);
+      if (JOINTS.has(joint) && !this.joints.has(joint)) this.joints.set(joint, child);
+    };
     node.traverse((child) => {
-      if (child.isMesh) this.meshes.push(child);
-      if (JOINTS.has(nameOf(child)) && !this.joints.has(nameOf(child))) this.joints.set(nameOf(child), child);
+      know(child);
+      child.skeleton?.bones.forEach(know);  // joints that hang elsewhere in the scene
     });
-    for (const mesh of this.meshes) {  // joints that hang elsewhere in the scene
-      for (const bone of mesh.skeleton?.bones ?? []) {
-        if (JOINTS.has(nameOf(bone)) && !this.joints.has(nameOf(bone))) this.joints.set(nameOf(bone), bone);
-      }
-      mesh.castShadow = true;
-      mesh.receiveShadow = true;
-      mesh.frustumCulled = false;  // bounds are those of the rest pose
-    }
     this.name = name ?? node.userData.name ?? `fighter ${index}`;
     this.capsules = capsulesOf(node.userData, this.joints);
     this.bones = [...this.joints.keys()].filter((j) => this.joints.has(PARENT[j])).map((j) => [PARENT[j], j]);
@@ -76,6 +71,11 @@ export class Cast {
       this.fighters.push(new Fighter(i, node, told.name, colours[i % colours.length], nameOf));
     });
     if (!this.fighters.length) throw new Error('fight.glb has no node named fighter0');
+    this.root.traverse((mesh) => {
+      if (!mesh.isMesh) return;
+      mesh.castShadow = mesh.receiveShadow = true;
+      if (mesh.isSkinnedMesh) mesh.frustumCulled = false;  // bounds are those of the rest pose
+    });
 
     this.mixer = new AnimationMixer(this.root);
     this.actions = gltf.animations.map((clip) => this.mixer.clipAction(clip).play());

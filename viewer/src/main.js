@@ -56,22 +56,28 @@ class Page {
     this.draw();
   }
 
-  // The file's own ring, else one large enough for the whole fight.
+  // A ring of the size that the file's own has, else large enough for the whole fight. The file's own is
+  // plain boxes whose ropes cannot step out of the picture, so the page's stands in for it.
   addRing() {
     let own = null;
+    let inside = 0;
     this.cast.root.traverse((node) => {
       if (!own && this.cast.nameOf(node) === 'ring') own = node;
     });
-    if (own) {
-      own.traverse((node) => (node.receiveShadow = true));
-      return null;
-    }
+    own?.traverse((node) => {
+      if (/ropes/i.test(node.material?.name ?? '')) {
+        node.geometry.computeBoundingBox();
+        inside = node.geometry.boundingBox.max.x - node.geometry.boundingBox.min.x;
+      }
+    });
+    if (own && inside < 2) return null;  // some other ring: it is shown as it is
+    if (own) own.visible = false;
     let farthest = 0;
     for (let f = 0; f < this.cast.frames; f += 30) {
       for (const { hips } of this.cast.at(f)) farthest = Math.max(farthest, Math.abs(hips.x), Math.abs(hips.z));
     }
     const told = Number(this.header.ring_size);
-    const ring = makeRing(Math.max(told > 2 ? told : 6.1, 2 * (farthest + 0.4)));
+    const ring = makeRing(inside || (told > 2 ? told : Math.max(6.1, 2 * (farthest + 0.4))));
     this.stage.scene.add(ring);
     return ring.getObjectByName('ropes');
   }

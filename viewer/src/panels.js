@@ -11,8 +11,7 @@ const PRUNED = {
 const FILTERS = ['hit', 'block', 'miss', 'knockdown', 'response', 'getup', 'strike', 'decision'];
 
 const count = (value) => (Number.isFinite(value) ? value.toLocaleString('en-US') : '–');
-// Scores are kept in thousandths of a point.
-const points = (value) => (Number.isFinite(value) ? `${value >= 0 ? '+' : '−'}${Math.abs(value / 1000).toFixed(2)}` : '–');
+const points = (value) => (Number.isFinite(value) ? `${value >= 0 ? '+' : '−'}${Math.abs(value).toFixed(2)}` : '–');
 
 export class Panels {
   constructor(story, fighters, report, jump) {

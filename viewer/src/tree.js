@@ -5,14 +5,9 @@ const COLUMN = 132;
 const ROW = 27;
 const MOST_LINES = 40;
 
-// {name, forced, actor}, one per action of a line; "*name" is forced.
-export function stepsOf(line) {
-  const actors = line.actors ?? [];
-  return (line.actions ?? []).map((action, i) => {
-    const forced = String(action).startsWith('*');
-    return { name: forced ? String(action).slice(1) : String(action), forced, actor: actors[i] ?? i % 2 };
-  });
-}
+// {name, forced, actor}, one per move of a line.
+const stepsOf = (line) =>
+  (line.moves ?? []).map((move) => ({ name: String(move.action ?? ''), forced: Boolean(move.forced), actor: Math.max(0, move.who ?? 0) }));
 
 // Lines that begin alike share their beginning.
 function joined(lines, chosen) {

@@ -1,0 +1,214 @@
+// Opens a fight's page as a visitor does, from a file:// address, and compares what it shows.
+//   FIGHT_HTML=out/duel/fight.html node --test test/page_test.mjs
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { launch } from '../browser.mjs';
+
+const file = process.env.FIGHT_HTML;
+const TIMEOUT = { timeout: 180_000 };
+
+let browser;
+let page;   // the fight
+let paper;  // an empty page on which pictures are decoded
+let address;
+const faults = [];
+const requests = [];
+
+before(async () => {
+  assert.ok(file, 'FIGHT_HTML must name a fight.html, for instance out/duel/fight.html from ./run.sh');
+  assert.ok(existsSync(file), `${file}: no such file; make it with ./run.sh`);
+  address = pathToFileURL(path.resolve(file)).href;
+  browser = await launch();
+  paper = await browser.newPage();
+  page = await browser.newPage({ viewport: { width: 1100, height: 700 } });
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.goto(address);
+  await page.evaluate(() => window.ringcraft.ready);
+}, TIMEOUT);
+
+after(() => browser?.close());
+
+const call = (what, ...args) => page.evaluate(([w, a]) => window.ringcraft[w](...a), [what, args]);
+const duration = () => page.evaluate(() => window.ringcraft.duration);
+
+async function picture() {
+  return (await page.locator('#stage').screenshot({ timeout: 60_000 })).toString('base64');
+}
+
+// Share of pixels that differ between two PNG pictures, and how many colours the first one has.
+function compare(a, b) {
+  return paper.evaluate(async (both) => {
+    const pixels = await Promise.all(both.map(async (base64) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${base64}`;
+      await image.decode();
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const g = canvas.getContext('2d');
+      g.drawImage(image, 0, 0);
+      return g.getImageData(0, 0, image.width, image.height).data;
+    }));
+    const colours = new Set();
+    let differing = 0;
+    for (let i = 0; i < pixels[0].length; i += 4) {
+      const [p, q] = pixels;
+      colours.add(((p[i] >> 3) << 10) | ((p[i + 1] >> 3) << 5) | (p[i + 2] >> 3));
+      const off = Math.abs(p[i] - q[i]) + Math.abs(p[i + 1] - q[i + 1]) + Math.abs(p[i + 2] - q[i + 2]);
+      if (off > 24) ++differing;
+    }
+    return { differing: (4 * differing) / pixels[0].length, colours: colours.size };
+  }, [a, b]);
+}
+
+test('the page knows its fight', async () => {
+  const fighters = await page.evaluate(() => window.ringcraft.fighters);
+  assert.ok(fighters.length >= 2, `${fighters.length} fighters`);
+  for (const fighter of fighters) assert.equal(fighter.joints.length, 22, `${fighter.name}: ${fighter.joints.join(' ')}`);
+  assert.ok((await duration()) > 1);
+  assert.ok(await page.evaluate(() => window.ringcraft.events.some((e) => e.type === 'decision')));
+});
+
+test('two times look different, and neither is blank', TIMEOUT, async () => {
+  const end = await duration();
+  await call('seek', 0.15 * end);
+  const first = await picture();
+  await call('seek', 0.6 * end);
+  const second = await picture();
+  const { differing, colours } = await compare(first, second);
+  assert.ok(colours > 150, `${colours} colours`);
+  assert.ok((await compare(second, first)).colours > 150);
+  assert.ok(differing > 0.01, `${differing} of the pixels differ`);
+});
+
+test('the same time looks the same again', TIMEOUT, async () => {
+  const end = await duration();
+  await call('setCamera', 'side');
+  await call('seek', 0.3 * end);
+  const first = await picture();
+  await call('seek', 0.8 * end);
+  await call('seek', 0.3 * end);
+  assert.equal((await compare(first, await picture())).differing, 0);
+});
+
+test('every fighter moves', async () => {
+  const end = await duration();
+  const fighters = await page.evaluate(() => window.ringcraft.fighters.length);
+  const hips = async (t) => {
+    await call('seek', t);
+    return Promise.all(Array.from({ length: fighters }, (_, i) => call('jointPosition', i, 'hips')));
+  };
+  const times = Array.from({ length: 12 }, (_, i) => ((i + 0.5) / 12) * end);
+  const tracks = [];
+  for (const t of times) tracks.push(await hips(t));
+  for (let i = 0; i < fighters; ++i) {
+    const moved = Math.max(...tracks.map((at) => Math.hypot(...at[i].map((v, k) => v - tracks[0][i][k]))));
+    assert.ok(moved > 0.02, `the hips of fighter ${i} move ${moved} m`);
+    assert.ok(tracks.every((at) => at[i][1] > -0.1 && at[i][1] < 1.6), 'hips between floor and a jump');
+  }
+  assert.equal(await call('jointPosition', 0, 'noSuchJoint'), null);
+});
+
+test('a click on a mark jumps to its event', async () => {
+  await call('seek', 0);
+  const found = await page.evaluate(() => {
+    const rank = { hit: 0, block: 1, miss: 2, response: 3 };
+    const marks = [...document.querySelectorAll('.event-mark')].map((mark) => {
+      const box = mark.getBoundingClientRect();
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      return { x, y, event: window.ringcraft.events[mark.dataset.event], top: document.elementFromPoint(x, y) === mark };
+    }).filter((m) => m.top && m.event.t > 0.05);
+    marks.sort((a, b) => (rank[a.event.type] ?? 9) - (rank[b.event.type] ?? 9));
+    return marks[0];
+  });
+  assert.ok(found, 'no mark can be reached');
+  await page.mouse.click(found.x, found.y);
+  assert.ok(Math.abs((await call('time')) - found.event.t) < 1e-6);
+});
+
+test('every overlay changes the picture and goes away again', TIMEOUT, async () => {
+  const contact = await page.evaluate(() => window.ringcraft.events.find((e) => ['hit', 'block'].includes(e.type) && e.point));
+  await call('setCamera', 'side');
+  await call('seek', contact ? contact.t + 0.05 : 1);
+  const capsules = await page.evaluate(() => window.ringcraft.fighters.every((f) => f.capsules > 0));
+  assert.ok(capsules, 'the GLB brings no capsules (extras of the fighter nodes)');
+  await call('setOverlay', 'contacts', false);
+  const bare = await picture();
+  const names = ['capsules', 'skeleton', 'support', 'trails', ...(contact ? ['contacts'] : [])];
+  for (const name of names) {
+    assert.equal(await call('setOverlay', name, true), true, name);
+    const { differing } = await compare(bare, await picture());
+    assert.ok(differing > 0.00005, `${name}: ${differing} of the pixels differ`);
+    await call('setOverlay', name, false);
+  }
+  assert.equal((await compare(bare, await picture())).differing, 0);
+  assert.equal(await call('setOverlay', 'noSuchOverlay', true), false);
+});
+
+test('every camera sees something of its own', TIMEOUT, async () => {
+  const seen = [];
+  for (const name of ['follow', 'side', 'front', 'top', 'ring']) {
+    assert.equal(await call('setCamera', name), true, name);
+    seen.push(await picture());
+  }
+  for (let i = 1; i < seen.length; ++i) {
+    const { differing, colours } = await compare(seen[i], seen[i - 1]);
+    assert.ok(differing > 0.05 && colours > 100, `camera ${i}: ${differing}, ${colours} colours`);
+  }
+  assert.equal(await call('setCamera', 'noSuchCamera'), false);
+});
+
+test('play goes on, pause stands still, keys step by a frame', TIMEOUT, async () => {
+  await call('seek', 0.5);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.ringcraft.time() > 0.7, null, { timeout: 60_000 });
+  await page.keyboard.press('Space');
+  const stopped = await call('time');
+  await page.waitForTimeout(300);
+  assert.equal(await call('time'), stopped);
+  await page.keyboard.press('.');
+  const stepped = await call('time');
+  assert.ok(stepped > stopped && stepped - stopped < 0.034, `${stopped} to ${stepped}`);
+  await page.keyboard.press(',');
+  assert.ok((await call('time')) < stepped);
+});
+
+test('the timeline can be dragged', async () => {
+  const box = await page.locator('.lanes').boundingBox();
+  const y = box.y + box.height - 4;
+  await page.mouse.move(box.x + box.width * 0.2, y);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.75, y, { steps: 4 });
+  await page.mouse.up();
+  const share = (await call('time')) / (await duration());
+  assert.ok(Math.abs(share - 0.75) < 0.01, `${share}`);
+});
+
+test('a decision shows its lines and what was pruned', async () => {
+  const mark = await page.evaluate(() => window.ringcraft.events.find((e) => e.type === 'decision' && e.lines?.length)?.t);
+  assert.ok(mark !== undefined, 'no decision with lines');
+  await call('seek', mark);
+  await page.locator('[data-tab=decision]').click();
+  const tree = page.locator('#panel-decision svg.tree');
+  assert.ok((await tree.locator('.node').count()) > 0);
+  assert.equal(await tree.locator('.node.chosen').count() > 0, true);
+  assert.match(await page.locator('#panel-decision').innerText(), /unanswered hit[\s\S]*penetration/i);
+  await page.locator('[data-form=lines]').click();
+  assert.ok((await page.locator('#panel-decision .lines li').count()) > 0);
+  await page.locator('[data-tab=events]').click();
+});
+
+test('the address names a time and a camera', async () => {
+  const t = Math.round(50 * (await duration())) / 100;
+  await page.evaluate((hash) => (location.hash = hash), `#t=${t}&camera=top`);
+  await page.waitForFunction((wanted) => Math.abs(window.ringcraft.time() - wanted) < 1e-6, t);
+  assert.equal(await page.locator('#cameras [aria-pressed=true]').innerText(), 'Top');
+});
+
+test('nothing went wrong and nothing left the machine', () => {
+  assert.deepEqual(faults, []);
+  assert.deepEqual(requests.filter((url) => !/^(data|blob):/.test(url) && url.split('#')[0] !== address), []);
+});
