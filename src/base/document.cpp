@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -231,7 +232,24 @@ Result<void> checked(const Document& document, const std::string& schema) {
 }
 
 Result<std::string> schema_text(const std::string& schema) {
-  return read_file(assets_folder() / "schemas" / (schema + ".schema.json"));
+  const std::string ending = ".schema.json";
+  const std::filesystem::path folder = assets_folder() / "schemas";
+  std::vector<std::string> known;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(ending)) known.push_back(name.substr(0, name.size() - ending.size()));
+  }
+  std::sort(known.begin(), known.end());
+  if (std::find(known.begin(), known.end(), schema) != known.end()) {
+    return read_file(folder / (schema + ending));
+  }
+  if (known.empty()) {
+    return input_error(folder.string(), "", "no schemas there",
+                       "set RINGCRAFT_ASSETS to ringcraft's folder assets");
+  }
+  return usage_error("", "", "no schema is called '" + schema + "'",
+                     fmt::format("known schemas: {}", fmt::join(known, ", ")));
 }
 
 }  // namespace ringcraft

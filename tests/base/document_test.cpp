@@ -178,7 +178,10 @@ TEST_F(DocumentTest, AMissingFileIsAnInputError) {
 }
 
 TEST_F(DocumentTest, AMissingOrFaultySchemaIsAnError) {
-  EXPECT_FALSE(parse_document("", "sample.toml", "none"));
+  const auto none = parse_document("", "sample.toml", "../schemas/sample");
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::usage);
+  EXPECT_THAT(none.error().remedy, HasSubstr("known schemas: sample"));
   ASSERT_TRUE(write_file(folder_.path() / "schemas" / "broken.schema.json", "{"));
   EXPECT_FALSE(parse_document("", "sample.toml", "broken"));
   ASSERT_TRUE(write_file(
@@ -269,6 +272,14 @@ TEST(NearestWordTest, TakesTheWordThatWasMeantAndNoOther) {
 TEST(JsonPointerTest, EscapesAsRfc6901) {
   EXPECT_EQ(json_pointer("/a", "b/c~d"), "/a/b~1c~0d");
   EXPECT_EQ(json_pointer("", ""), "/");
+}
+
+TEST_F(DocumentTest, WithoutSchemasTheErrorNamesTheAssets) {
+  std::filesystem::remove_all(folder_.path() / "schemas");
+  const auto text = schema_text("sample");
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().kind, ErrorKind::input);
+  EXPECT_THAT(text.error().remedy, HasSubstr("RINGCRAFT_ASSETS"));
 }
 
 // Every schema that is published can be read, refuses unknown keys and is known to valijson.
