@@ -1,6 +1,7 @@
 #include "motion/clip.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ namespace {
 
 template <class T>
 const T& clamped(const std::vector<T>& values, Tick tick) {
+  assert(!values.empty());  // rules 1 and 2
   const auto last = static_cast<Tick>(values.size()) - 1;
   return values[static_cast<std::size_t>(std::clamp<Tick>(tick, 0, last))];
 }
@@ -62,6 +64,10 @@ std::vector<std::string> faults(const Clip& clip) {
   }
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     const Pose& pose = clip.frames[i];
+    const Placement& root = clip.root[i];
+    if (!finite(Vec3(root.x, root.yaw, root.z))) {
+      found.push_back(fmt::format("rule 4: frame {}: root not finite", i));
+    }
     if (!finite(pose.hips)) found.push_back(fmt::format("rule 4: frame {}: hips not finite", i));
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const Quat q = pose.rotation[j];

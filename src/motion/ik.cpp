@@ -9,13 +9,6 @@ namespace {
 
 constexpr float kMostFlexion = radians(155);  // past it forearm and upper arm share their flesh
 
-// The hinge axis about which a limb's middle joint flexes by a positive angle, rest frame.
-Vec3 hinge_axis(const Limb& limb) {
-  if (limb.root == Joint::left_upper_arm) return -kUp;
-  if (limb.root == Joint::right_upper_arm) return kUp;
-  return kLeft;
-}
-
 Quat parent_rotation(const WorldPose& world, Joint joint) {
   const int parent = kParent[index(joint)];
   return parent < 0 ? Quat() : world.rotation[static_cast<std::size_t>(parent)];
@@ -30,6 +23,12 @@ float softened(float distance, float length, float soft_share) {
 }
 
 }  // namespace
+
+Vec3 hinge_axis(const Limb& limb) {
+  if (limb.root == Joint::left_upper_arm) return -kUp;
+  if (limb.root == Joint::right_upper_arm) return kUp;
+  return kLeft;
+}
 
 void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& target, Pose& pose) {
   const WorldPose world = world_pose(skeleton, pose);

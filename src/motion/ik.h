@@ -12,6 +12,10 @@ struct LimbTarget {
                               // joint pops when the target moves out of reach
 };
 
+// The axis about which a limb's middle joint flexes by a positive angle, in the rest pose: knees
+// bend backwards, elbows forwards.
+Vec3 hinge_axis(const Limb& limb);
+
 // Turns the limb's root and middle joints so that its end reaches the target; the end joint keeps
 // its world rotation. Targets out of reach are approached along the line. The middle joint bends
 // about one axis only (x of the lower leg, y of the lower arm in the rest pose), as a hinge does.
