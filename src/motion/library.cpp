@@ -10,17 +10,34 @@ namespace ringcraft {
 
 namespace {
 
+void add(Hasher& hasher, const Clip& clip) {
+  for (const Pose& pose : clip.frames) {
+    hasher.add(pose.hips.x).add(pose.hips.y).add(pose.hips.z);
+    for (const Quat& q : pose.rotation) hasher.add(q.w).add(q.x).add(q.y).add(q.z);
+  }
+  for (const Placement& root : clip.root) hasher.add(root.x).add(root.z).add(root.yaw);
+  for (const FootContacts& contact : clip.contacts) hasher.add(contact.left).add(contact.right);
+}
+
+// Everything that can change a fight; not where an action came from.
 std::uint64_t hash_of(const std::vector<Action>& actions) {
   Hasher hasher;
   for (const Action& action : actions) {
     hasher.add(action.name).add(action.kind).add(action.length());
     for (const Strike& strike : action.strikes) {
-      hasher.add(strike.joint).add(strike.active_begin).add(strike.active_end).add(strike.zone);
+      hasher.add(strike.kind).add(strike.joint).add(strike.zone);
+      hasher.add(strike.active_begin).add(strike.active_end);
     }
-    for (const Pose& pose : action.clip.frames) {
-      hasher.add(pose.hips.x).add(pose.hips.y).add(pose.hips.z);
-      for (const Quat& q : pose.rotation) hasher.add(q.w).add(q.x).add(q.y).add(q.z);
+    hasher.add(action.defense.has_value()).add(action.response.has_value());
+    if (action.defense) {
+      hasher.add(action.defense->kind).add(action.defense->begin).add(action.defense->end);
     }
+    if (action.response) {
+      hasher.add(action.response->kind).add(action.response->steps);
+      hasher.add(action.response->direction);
+    }
+    hasher.add(action.starts_lying).add(action.ends_lying);
+    add(hasher, action.clip);
   }
   return hasher.digest();
 }
@@ -30,7 +47,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
 MotionLibrary::MotionLibrary(std::string name, std::vector<Action> actions,
                              const StateMachineSettings& settings)
     : name_(std::move(name)), skeleton_(canonical_skeleton()), actions_(std::move(actions)) {
-  // Dropping one action can cut another's only way, so repeat until nothing falls.
+  // A get-up that is dropped can be a fall's only way, so repeat until nothing falls.
   for (auto loose = unconnected(skeleton_, actions_, settings); !loose.empty();
        loose = unconnected(skeleton_, actions_, settings)) {
     for (auto id = loose.rbegin(); id != loose.rend(); ++id) {

@@ -114,15 +114,16 @@ bool edge_allowed(const Action& from, const Action& to, float distance,
   return distance <= (launchable(from) ? settings.threshold : settings.response_threshold);
 }
 
-std::vector<std::vector<Edge>> find_edges(const Skeleton& skeleton,
-                                          const std::vector<Action>& actions,
-                                          const StateMachineSettings& settings) {
+using Edges = std::vector<std::vector<Edge>>;
+
+Edges find_edges(const Skeleton& skeleton, const std::vector<Action>& actions,
+                 const StateMachineSettings& settings) {
   std::vector<Cloud> starts, ends;
   for (const Action& action : actions) {
     starts.push_back(start_cloud(skeleton, action.clip));
     ends.push_back(end_cloud(skeleton, action.clip));
   }
-  std::vector<std::vector<Edge>> edges(actions.size());
+  Edges edges(actions.size());
   for (std::size_t i = 0; i < actions.size(); ++i) {
     for (std::size_t j = 0; j < actions.size(); ++j) {
       const Alignment alignment = align_clouds(ends[i], starts[j]);
@@ -137,14 +138,19 @@ std::vector<std::vector<Edge>> find_edges(const Skeleton& skeleton,
   return edges;
 }
 
-// What a path may lead over: motion that asks nothing of the opponent.
+// What a path between launched actions may lead over: motion that asks nothing of the opponent.
 bool connects(const Action& action) {
   return action.kind == Kind::transition || action.kind == Kind::idle;
 }
 
+// The same out of a fall, which a get-up must follow first. Only falls have edges to get-ups.
+bool leads_on(const Action& action) {
+  return connects(action) || action.kind == Kind::get_up;
+}
+
 // Dijkstra from the end of `from`; ties go to the lower index.
 std::vector<std::optional<Path>> paths_from(ActionId from, const std::vector<Action>& actions,
-                                            const std::vector<std::vector<Edge>>& edges) {
+                                            const Edges& edges) {
   constexpr Tick kFar = std::numeric_limits<Tick>::max();
   std::vector<Tick> cost(actions.size(), kFar);  // ticks until the action can start
   std::vector<ActionId> before(actions.size());
@@ -164,7 +170,7 @@ std::vector<std::optional<Path>> paths_from(ActionId from, const std::vector<Act
     const auto [ticks, value] = open.top();
     open.pop();
     const ActionId at(value);
-    if (ticks > cost[at.at()] || !connects(actions[at.at()]) || at == from) continue;
+    if (ticks > cost[at.at()] || !leads_on(actions[at.at()]) || at == from) continue;
     relax(at, ticks + actions[at.at()].length());
   }
   std::vector<std::optional<Path>> paths(actions.size());
@@ -178,6 +184,69 @@ std::vector<std::optional<Path>> paths_from(ActionId from, const std::vector<Act
     paths[i] = std::move(path);
   }
   return paths;
+}
+
+bool stands(const Edges& edges, std::size_t from, std::size_t to) {
+  return std::any_of(edges[from].begin(), edges[from].end(),
+                     [&](const Edge& edge) { return edge.to == ActionId(to); });
+}
+
+// Strongly connected components of the transitions and idles, by each action's component number;
+// -1 for the others and for a lone one that cannot follow itself.
+std::vector<int> connecting_components(const std::vector<Action>& actions, const Edges& edges) {
+  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+  Graph graph(actions.size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    for (const Edge& edge : edges[i]) {
+      if (connects(actions[i]) && connects(actions[edge.to.at()])) {
+        boost::add_edge(i, edge.to.at(), graph);
+      }
+    }
+  }
+  std::vector<int> component(actions.size());
+  const int count = boost::strong_components(graph, component.data());
+  std::vector<int> size(static_cast<std::size_t>(count));
+  for (const int c : component) ++size[static_cast<std::size_t>(c)];
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const bool lone = size[static_cast<std::size_t>(component[i])] == 1 && !stands(edges, i, i);
+    if (!connects(actions[i]) || lone) component[i] = -1;
+  }
+  return component;
+}
+
+// The largest set of launchable actions in which every action has a path to every other and to
+// itself over members of the set. Paths lead over transitions and idles only, so the set is one of
+// their strongly connected components and all that has an edge both from it and into it.
+std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edges& edges) {
+  const std::vector<int> component = connecting_components(actions, edges);
+  const int count = actions.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  std::vector<bool> best(actions.size());
+  for (int core = 0; core < count; ++core) {
+    std::vector<bool> into(actions.size()), out_of(actions.size()), kept(actions.size());
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      for (const Edge& edge : edges[i]) {
+        if (component[edge.to.at()] == core) into[i] = true;
+        if (component[i] == core) out_of[edge.to.at()] = true;
+      }
+    }
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      kept[i] = launchable(actions[i]) && into[i] && out_of[i] &&
+                (!connects(actions[i]) || component[i] == core);
+    }
+    if (std::count(kept.begin(), kept.end(), true) > std::count(best.begin(), best.end(), true)) {
+      best = std::move(kept);
+    }
+  }
+  if (count > 0) return best;
+  // Nothing to lead over: what follows itself and all the others directly, first come first kept.
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    bool fits = launchable(actions[i]) && stands(edges, i, i);
+    for (std::size_t j = 0; j < i && fits; ++j) {
+      if (best[j]) fits = stands(edges, i, j) && stands(edges, j, i);
+    }
+    best[i] = fits;
+  }
+  return best;
 }
 
 }  // namespace
@@ -219,31 +288,9 @@ const Path* StateMachine::path(ActionId from, ActionId to) const {
 
 std::vector<ActionId> unconnected(const Skeleton& skeleton, const std::vector<Action>& actions,
                                   const StateMachineSettings& settings) {
-  using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
   const auto edges = find_edges(skeleton, actions, settings);
-  // 1. The largest strongly connected component of what can be launched. Paths lead only over
-  //    transitions and idles, so only their out-edges count twice; every action's own out-edges
-  //    count.
-  Graph graph(actions.size());
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    for (const Edge& edge : edges[i]) {
-      if (launchable(actions[i]) && launchable(actions[edge.to.at()])) {
-        boost::add_edge(i, edge.to.at(), graph);
-      }
-    }
-  }
-  std::vector<int> component(actions.size());
-  const int count = boost::strong_components(graph, component.data());
-  std::vector<int> size(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (launchable(actions[i])) ++size[static_cast<std::size_t>(component[i])];
-  }
-  const auto largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
-  std::vector<bool> kept(actions.size());
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    kept[i] = launchable(actions[i]) && component[i] == largest;
-  }
-  // 2. Get-ups must lead into it, responses too; falls lead to get-ups.
+  std::vector<bool> kept = largest_playable(actions, edges);
+  // Get-ups must lead into it, responses too; falls lead to get-ups.
   const auto leads_into = [&](std::size_t i) {
     return std::any_of(edges[i].begin(), edges[i].end(),
                        [&](const Edge& e) { return kept[e.to.at()]; });

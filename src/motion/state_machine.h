@@ -51,8 +51,9 @@ class StateMachine {
   const std::vector<Edge>& edges(ActionId from) const { return edges_[from.at()]; }
   // The direct edge, if there is one.
   const Edge* edge(ActionId from, ActionId to) const;
-  // Shortest path by ticks, precomputed to the starts of all actions that can be launched. Never
-  // null for actions of a library that was built: the machine is strongly connected.
+  // Shortest path by ticks, over transitions and idles (out of a fall over its get-up first),
+  // precomputed to the starts of all actions that can be launched. Never null for those targets in
+  // a library that was built, an action's own start included.
   const Path* path(ActionId from, ActionId to) const;
 
  private:
@@ -60,9 +61,9 @@ class StateMachine {
   std::vector<std::vector<std::optional<Path>>> paths_;
 };
 
-// Actions that are not in the largest strongly connected component, by index; the builder drops
-// them and says so. Responses and knockdowns count as reachable (physics enters them), they must
-// lead back.
+// Actions to drop, by index, so that every kept one has a path to every kept one that can be
+// launched; the largest such set is kept, the builder says what it dropped. Responses and
+// knockdowns count as reachable (physics enters them), they must lead back.
 std::vector<ActionId> unconnected(const Skeleton& skeleton, const std::vector<Action>& actions,
                                   const StateMachineSettings& settings);
 
