@@ -9,30 +9,96 @@ namespace ringcraft {
 
 namespace {
 
-// A critically damped spring of this rate falls to about 1 % in `seconds`.
-float rate_for(float seconds) {
-  return 6.6f / seconds;
-}
+constexpr float kStraightest = 0.992f;   // of the leg's length: beyond it the hips sink
+constexpr float kLoadSeconds = 0.12f;    // in which a foot that was set down takes the weight
+constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
+constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
+constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
+constexpr float kSoftHinge = 0.3f;       // rad: over which an elbow eases into its stop
+constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
 
-float smooth(float t) {
-  t = std::clamp(t, 0.0f, 1.0f);
-  return t * t * t * (10 + t * (6 * t - 15));
-}
+constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
 Vec3 on_ground(Vec3 v) {
   return {v.x, 0, v.z};
 }
 
-constexpr float kStraightest = 0.992f;  // of the leg's length: beyond it the hips sink
+float smooth(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// max(x, 0) with a parabola over +-width in place of the corner.
+float soft_positive(float x, float width) {
+  if (x >= width) return x;
+  if (x <= -width) return 0;
+  return (x + width) * (x + width) / (4 * width);
+}
+
+// The rotation vector of q that lies nearest to `reference`: a turn of a little more than half a
+// circle does not become one the other way.
+Vec3 rotation_vector_near(Quat q, Vec3 reference) {
+  const Vec3 v = rotation_vector(q);
+  const float angle = glm::length(v);
+  if (angle < 1e-4f) return v;
+  const Vec3 around = v * (1 - 2 * kPi / angle);
+  return glm::distance2(around, reference) < glm::distance2(v, reference) ? around : v;
+}
+
+// The decay of a rotation that was `before` and `shown` in the last two ticks and from now on
+// follows `now` and `after`. The velocity is that of the rotation vector itself, not the difference
+// of angular velocities: these differ where the offset is large.
+Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds) {
+  const Quat spin = shown * glm::inverse(before);
+  const Quat carried = glm::normalize(spin * shown);
+  const Quat carried_on = glm::normalize(spin * carried);
+  const Vec3 value = rotation_vector(carried * glm::inverse(now));
+  const Vec3 next = rotation_vector_near(carried_on * glm::inverse(after), value);
+  return {value, (next - value) / kTickSeconds, seconds};
+}
+
+// Keeps a blended elbow from bending backwards, as an offset with a velocity can make it. Eases
+// over a range that shrinks with the offset, so that the clip's own elbow stays as it is.
+Quat within_hinge(Quat blended, Quat clip, Vec3 axis, float offset) {
+  const auto flexion = [&](Quat q) {
+    if (q.w < 0) q = -q;
+    return 2 * std::atan2(glm::dot(Vec3(q.x, q.y, q.z), axis), q.w);
+  };
+  const float least = std::min(0.0f, flexion(clip));
+  const float width = std::min(kSoftHinge, 2 * offset);
+  if (width < 1e-5f) return blended;
+  const float angle = flexion(blended);
+  const float kept = least + soft_positive(angle - least, width);
+  return glm::normalize(blended * glm::angleAxis(kept - angle, axis));
+}
+
+// Lowest height of the ball at which neither ball nor heel of a foot turned so is under the floor.
+float ball_floor(const Skeleton& skeleton, Quat foot) {
+  const Vec3 heel = -skeleton.offset[index(Joint::left_toes)] - kUp * skeleton.ankle_height();
+  return std::max(skeleton.toe_height(), -(foot * heel).y);
+}
+
+// Lifts the toes of a foot that points down until their tip lies on the floor.
+Quat toes_on_floor(const Skeleton& skeleton, Quat toes, float ball_height) {
+  const float length = kToeLength * skeleton.height;
+  const float dip = std::clamp((ball_height - skeleton.toe_height()) / length, 0.0f, 1.0f);
+  const Vec3 forward = toes * kForward;
+  if (forward.y >= -dip || on_ground(forward) == Vec3()) return toes;
+  const Vec3 level = glm::normalize(on_ground(forward)) * std::sqrt(1 - dip * dip) - kUp * dip;
+  return glm::normalize(rotation_between(forward, level) * toes);
+}
 
 }  // namespace
 
-void Decay::step(float dt, float rate) {
-  // x(t) = (x0 + (v0 + r x0) t) e^(-r t)
-  const Vec3 slope = velocity + value * rate;
-  const float fade = std::exp(-rate * dt);
-  value = (value + slope * dt) * fade;
-  velocity = slope * fade - value * rate;
+Decay::Decay(Vec3 value, Vec3 velocity, float seconds)
+    : start_(value), velocity_(velocity), seconds_(seconds) {}
+
+Vec3 Decay::value() const {
+  // x(s) = x0 (1 - 10 s^3 + 15 s^4 - 6 s^5) + v0 T (s - 6 s^3 + 8 s^4 - 3 s^5),  s = t / T
+  if (done()) return {};
+  const float s = age_ / seconds_, s3 = s * s * s;
+  return start_ * (1 - s3 * (10 - s * (15 - 6 * s))) +
+         velocity_ * seconds_ * (s - s3 * (6 - s * (8 - 3 * s)));
 }
 
 Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
@@ -40,117 +106,208 @@ Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
 
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
-  // The shown motion carried on by one tick, against the new motion: offset and its velocity.
-  const Vec3 hips_velocity = (shown_.hips - before_.hips) / kTickSeconds;
-  const Vec3 clip_velocity = (after.hips - now.hips) / kTickSeconds;
-  hips_ = {shown_.hips + hips_velocity * kTickSeconds - now.hips, hips_velocity - clip_velocity};
+  const float seconds = settings_.blend_seconds;
+  const Vec3 moved = shown_.hips - before_.hips;
+  const Vec3 clip_moved = after.hips - now.hips;
+  hips_ = {shown_.hips + moved - now.hips, (moved - clip_moved) / kTickSeconds, seconds};
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    const Vec3 spin =
-        rotation_vector(shown_.rotation[j] * glm::inverse(before_.rotation[j])) / kTickSeconds;
-    const Vec3 clip_spin =
-        rotation_vector(after.rotation[j] * glm::inverse(now.rotation[j])) / kTickSeconds;
-    const Quat carried = from_rotation_vector(spin * kTickSeconds) * shown_.rotation[j];
-    rotation_[j] = {rotation_vector(carried * glm::inverse(now.rotation[j])), spin - clip_spin};
+    rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
+                                  after.rotation[j], seconds);
   }
+  const WorldPose world_now = world_pose(skeleton_, now);
+  const WorldPose world_after = world_pose(skeleton_, after);
+  for (const Side side : kSides) stitch_foot(side, world_now, world_after);
+}
+
+void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& after) {
+  Foot& foot = feet_[static_cast<std::size_t>(side)];
+  const std::size_t end = index(leg(side).end), ball = index(toes(side));
+  foot.turn = rotation_decay(world_pose(skeleton_, before_).rotation[end],
+                             world_pose(skeleton_, shown_).rotation[end], now.rotation[end],
+                             after.rotation[end], settings_.blend_seconds);
+  const Vec3 clip_moved = after.position[ball] - now.position[ball];
+  foot.clip_ball = now.position[ball] - clip_moved;
+  if (foot.mode == Mode::held) return;
+  const Vec3 moved = foot.ball - foot.ball_before;
+  const float seconds = foot.mode == Mode::swing
+                            ? settings_.blend_seconds
+                            : std::max(foot.offset.seconds_left(), settings_.land_seconds);
+  foot.offset = {foot.ball + moved - now.position[ball], (moved - clip_moved) / kTickSeconds,
+                 seconds};
+  foot.step_lift = 0;  // a step under way has its height in the offset
 }
 
 const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   Pose pose = clip_pose;
-  pose.hips += hips_.value;
+  pose.hips += hips_.value();
   for (std::size_t j = 0; j < kJointCount; ++j) {
     pose.rotation[j] =
-        glm::normalize(from_rotation_vector(rotation_[j].value) * clip_pose.rotation[j]);
+        glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  const float rate = rate_for(settings_.blend_seconds);
-  hips_.step(kTickSeconds, rate);
-  for (Decay& decay : rotation_) decay.step(kTickSeconds, rate);
+  for (const Side side : kSides) {
+    const std::size_t elbow = index(arm(side).middle);
+    pose.rotation[elbow] =
+        within_hinge(pose.rotation[elbow], clip_pose.rotation[elbow], hinge_axis(arm(side)),
+                     glm::length(rotation_[elbow].value()));
+  }
   place_feet(clip_pose, contacts, pose);
+  hips_.step(kTickSeconds);
+  for (Decay& decay : rotation_) decay.step(kTickSeconds);
   return show(pose);
 }
 
 const Pose& Playback::next_simulated(const Pose& pose) {
-  for (Foot& foot : feet_) foot = {};
+  for (Foot& foot : feet_) {
+    foot.mode = Mode::swing;
+    foot.offset = {};
+    foot.turn = {};
+    foot.load = 0;
+  }
+  hips_ = {};
+  rotation_.fill({});
   return show(pose);
 }
 
 const Pose& Playback::show(const Pose& pose) {
   before_ = started_ ? shown_ : pose;
   shown_ = pose;
-  started_ = true;
   for (std::size_t j = 0; j < kJointCount; ++j) {
     shown_.rotation[j] = in_hemisphere_of(shown_.rotation[j], before_.rotation[j]);
   }
+  const WorldPose world = world_pose(skeleton_, shown_);
+  for (const Side side : kSides) {
+    Foot& foot = feet_[static_cast<std::size_t>(side)];
+    const Vec3 ball = world.position[index(toes(side))];
+    foot.ball_before = started_ ? foot.ball : ball;
+    foot.ball = ball;
+  }
+  started_ = true;
   return shown_;
 }
 
-// Where the ball of the foot goes. `ball`: in the blended pose; `clip_ball`: in the clip.
-Vec3 Playback::hold_foot(Side side, bool planted, Vec3 ball, Vec3 clip_ball) {
+// What the foot does from this tick on. `floor`: height of the ball when the foot stands.
+void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
-  const Foot& other = feet_[static_cast<std::size_t>(ringcraft::other(side))];
-  const float floor = skeleton_.toe_height();
-  if (planted && !foot.held && !foot.restep) {  // set down where it is shown
-    foot.held = true;
-    foot.place = on_ground(ball + foot.offset.value);
-    foot.offset = {};
+  const Foot& other_foot = feet_[static_cast<std::size_t>(other(side))];
+  const Vec3 moved = foot.ball - foot.ball_before;
+  const Vec3 carried = foot.ball + moved;  // where it would be shown if nothing changed
+  const Vec3 clip_velocity = (clip_ball - foot.clip_ball) / kTickSeconds;
+  const Vec3 velocity = moved / kTickSeconds;
+  const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
+  const float height = carried.y - floor;
+
+  // 1. Lifted: the way back to the clip.
+  if (!planted && foot.mode != Mode::swing) {
+    foot.mode = Mode::swing;
+    foot.offset = {carried - clip_ball, velocity - clip_velocity, settings_.unlock_seconds};
+    return;
   }
-  if (!planted && (foot.held || foot.restep)) {  // lifted: the way back to the clip
-    foot.held = false;
-    foot.restep.reset();
-    foot.offset = {foot.place - on_ground(ball), {}};
+  // 2. Set down: where it is, if that is near enough and it is nearly down; else by a step.
+  const bool may_stand = height < kLandingHeight && astray < settings_.restep_distance &&
+                         glm::length(on_ground(velocity)) < kLandingSpeed;
+  if (planted && foot.mode == Mode::swing && may_stand) {
+    foot.mode = Mode::held;
+    foot.place = on_ground(carried);
+    foot.offset = {kUp * height, kUp * velocity.y, settings_.land_seconds};
+    return;
   }
-  if (!planted) {
-    const Vec3 wanted = ball + foot.offset.value;
-    foot.offset.step(kTickSeconds, rate_for(settings_.unlock_seconds));
-    return {wanted.x, std::max(wanted.y, floor), wanted.z};
+  // 3. Left behind: a step of its own, while the other foot carries.
+  const bool left_behind = foot.mode == Mode::held && astray > settings_.restep_distance &&
+                           stands(other_foot) && since_step_ > kBetweenSteps;
+  if (planted && (foot.mode == Mode::swing || left_behind)) {
+    const Vec3 goal = on_ground(clip_ball) + kUp * floor;
+    const float low = 1 - std::clamp(height / kLandingHeight, 0.0f, 1.0f);
+    const float far = std::clamp(astray / settings_.restep_distance, 0.0f, 1.0f);
+    foot.mode = Mode::step;
+    foot.offset = {carried - goal, velocity - on_ground(clip_velocity), settings_.restep_seconds};
+    foot.step_lift = settings_.restep_lift * low * far;
+    foot.step_age = 0;
+    return;
   }
-  if (foot.held && !foot.restep && !other.restep && since_restep_ > 6 &&
-      glm::distance(foot.place, on_ground(clip_ball)) > settings_.restep_distance) {
-    foot.restep = 0;
-    foot.restep_from = foot.place;
+  // 4. A step of its own that has arrived.
+  if (foot.mode == Mode::step && foot.offset.done()) {
+    foot.mode = Mode::held;
+    foot.place = on_ground(carried);
+    foot.offset = {kUp * height, kUp * velocity.y, settings_.land_seconds};
   }
-  if (foot.restep) {
-    const float share =
-        static_cast<float>(++*foot.restep) * kTickSeconds / settings_.restep_seconds;
-    foot.place = foot.restep_from + (on_ground(clip_ball) - foot.restep_from) * smooth(share);
-    const float lift =
-        settings_.restep_lift * std::pow(std::sin(kPi * std::min(share, 1.0f)), 1.0f);
-    if (share >= 1) foot.restep.reset();
-    since_restep_ = 0;
-    return {foot.place.x, floor + lift, foot.place.z};
+}
+
+// Where the ball of the foot goes in this tick.
+Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
+  Foot& foot = feet_[static_cast<std::size_t>(side)];
+  if (started_) {
+    change_mode(side, planted, clip_ball, floor);
+  } else {
+    foot.mode = planted ? Mode::held : Mode::swing;
+    foot.place = on_ground(clip_ball);
+    foot.load = planted ? 1.0f : 0.0f;
   }
-  return {foot.place.x, floor, foot.place.z};
+  Vec3 ball = foot.offset.value();
+  switch (foot.mode) {
+    case Mode::swing:
+      ball += clip_ball;
+      break;
+    case Mode::held:
+      ball += foot.place + kUp * floor;
+      break;
+    case Mode::step: {
+      const float rise = std::sin(kPi * std::min(1.0f, foot.step_age / settings_.restep_seconds));
+      ball += on_ground(clip_ball) + kUp * (floor + foot.step_lift * rise * rise);
+      foot.step_age += kTickSeconds;
+      since_step_ = 0;
+      break;
+    }
+  }
+  // Never under the floor; one that a simulation left there comes up as its offset decays.
+  ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
+  foot.offset.step(kTickSeconds);
+  const float toward = foot.mode == Mode::held ? kTickSeconds : -kTickSeconds;
+  foot.load = std::clamp(foot.load + toward / kLoadSeconds, 0.0f, 1.0f);
+  foot.clip_ball = clip_ball;
+  return ball;
 }
 
 void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
   const WorldPose world = world_pose(skeleton_, pose);
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   std::array<Vec3, 2> ankle;
+  std::array<Quat, 2> foot_rotation;
+  std::array<float, 2> height;
   float sink = 0;
-  ++since_restep_;
-  for (const Side side : {Side::left, Side::right}) {
-    const std::size_t ball = index(toes(side)), end = index(leg(side).end),
-                      root = index(leg(side).root);
-    const Vec3 wanted =
-        hold_foot(side, contacts.of(side), world.position[ball], clip_world.position[ball]);
-    ankle[static_cast<std::size_t>(side)] = world.position[end] + (wanted - world.position[ball]);
-    // The hips sink where a held foot would be out of reach.
-    const Vec3 line = world.position[root] - ankle[static_cast<std::size_t>(side)];
-    const float across = glm::length(on_ground(line));
+  since_step_ += kTickSeconds;
+  // 1. Where the feet go, and how far the hips must sink so that those that carry are in reach.
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
+    Foot& foot = feet_[i];
+    const std::size_t ball = index(toes(side)), end = index(leg(side).end);
+    foot_rotation[i] =
+        glm::normalize(from_rotation_vector(foot.turn.value()) * clip_world.rotation[end]);
+    foot.turn.step(kTickSeconds);
+    const float floor = ball_floor(skeleton_, foot_rotation[i]);
+    const Vec3 wanted = ball_of(side, contacts.of(side), clip_world.position[ball], floor);
+    height[i] = wanted.y;
+    ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
+    const Vec3 line = world.position[index(leg(side).root)] - ankle[i];
     const float reach = kStraightest * skeleton_.leg_length();
-    if (contacts.of(side) && across < reach) {
-      sink = std::max(sink, line.y - std::sqrt(reach * reach - across * across));
-    }
+    const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
+    const float over = line.y - std::sqrt(reach * reach - across * across);
+    sink = std::max(sink, smooth(foot.load) * soft_positive(over, 0.004f));
   }
   pose.hips.y -= sink;
-  for (const Side side : {Side::left, Side::right}) {
+  // 2. The legs follow: the knee stays in the hinge's plane of the blended thigh.
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
     const Limb limb = leg(side);
-    const Vec3 forward = world.rotation[index(limb.root)] * kForward;
+    const Vec3 line = ankle[i] - (world.position[index(limb.root)] - kUp * sink);
     LimbTarget target;
-    target.position = ankle[static_cast<std::size_t>(side)];
-    target.position.y = std::max(target.position.y, 0.6f * skeleton_.ankle_height());
-    target.pole = present_pole(world, limb, forward);
+    target.position = ankle[i];
+    target.pole = glm::cross(line, world.rotation[index(limb.root)] * hinge_axis(limb));
     target.soft_share = 0.997f;
     solve_limb(skeleton_, limb, target, pose);
+    set_world_rotation(skeleton_, limb.end, foot_rotation[i], pose);
+    const Quat toe_rotation = foot_rotation[i] * pose.rotation[index(toes(side))];
+    pose.rotation[index(toes(side))] = glm::normalize(
+        glm::inverse(foot_rotation[i]) * toes_on_floor(skeleton_, toe_rotation, height[i]));
   }
 }
 

@@ -1,32 +1,44 @@
 #pragma once
 // Playback: one fighter's segments become one continuous motion.
 //
-// At a seam the difference to the new clip is inertialized (Bollo 2018): it decays from the present
-// pose and velocity, here by a critically damped spring on the offset's rotation vector, so that
-// even an interrupted blend does not jump. Planted feet are held by IK where they were set down
-// until the clip lifts them; a foot left too far from the clip's takes a small step of its own.
+// At a seam the difference to the new clip is inertialized (Bollo 2018): it starts from the present
+// pose and velocity and decays along a quintic, so that even an interrupted blend does not jump.
+// Feet are led by the ball of the foot, not by joint angles: a planted foot stays where it was set
+// down until the clip lifts it, one left too far from the clip's takes a small step of its own, and
+// where the legs are too short for that the hips sink.
 
 #include <array>
-#include <optional>
 
 #include "motion/clip.h"
 
 namespace ringcraft {
 
 struct PlaybackSettings {
-  float blend_seconds = 0.32f;   // in which a seam's difference falls to about 1 %
+  float blend_seconds = 0.24f;   // in which a seam's difference falls to nothing
   float unlock_seconds = 0.20f;  // the same for a lifted foot's way back to the clip
-  float restep_distance =
-      0.06f;  // m: a planted foot farther from the clip's takes a step of its own
-  float restep_seconds = 0.20f;
+  float land_seconds = 0.10f;    // in which a foot that was set down presses to the floor
+  // m: a planted foot farther from the clip's takes a step of its own
+  float restep_distance = 0.06f;
+  float restep_seconds = 0.22f;
   float restep_lift = 0.05f;  // m: height of that step
 };
 
-// An offset that decays from a start value and velocity to nothing (critically damped spring).
-struct Decay {
-  Vec3 value{};                     // m or rad
-  Vec3 velocity{};                  // per second
-  void step(float dt, float rate);  // rate: 1/s
+// An offset that decays from a start value and velocity to nothing. Quintic: velocity and
+// acceleration end at zero, the acceleration starts at zero (Bollo 2018, with a0 = 0).
+class Decay {
+ public:
+  Decay() = default;
+  // value in m or rad, velocity per second, seconds > 0
+  Decay(Vec3 value, Vec3 velocity, float seconds);
+
+  Vec3 value() const;
+  bool done() const { return age_ >= seconds_; }
+  float seconds_left() const { return done() ? 0.0f : seconds_ - age_; }
+  void step(float dt) { age_ += dt; }
+
+ private:
+  Vec3 start_{}, velocity_{};
+  float seconds_ = 0, age_ = 0;
 };
 
 class Playback {
@@ -44,21 +56,30 @@ class Playback {
   // Shows a simulated pose as it is; the feet are let go.
   const Pose& next_simulated(const Pose& pose);
 
-  const Pose& shown() const { return shown_; }                          // last shown
-  const Pose& shown_before() const { return before_; }                  // one tick earlier
-  FootContacts held() const { return {feet_[0].held, feet_[1].held}; }  // feet held on the ground
+  const Pose& shown() const { return shown_; }          // last shown
+  const Pose& shown_before() const { return before_; }  // one tick earlier
+  // Feet that stand still on the ground; not those that still press down or step on their own.
+  FootContacts held() const { return {stands(feet_[0]), stands(feet_[1])}; }
   bool started() const { return started_; }
 
  private:
+  enum class Mode : std::uint8_t { swing, step, held };
   struct Foot {
-    bool held = false;
-    Vec3 place{};                // of the ball of the foot while held, ground plane
-    std::optional<Tick> restep;  // age of a step of its own
-    Vec3 restep_from{};
-    Decay offset;  // lifted: ball's offset to the clip
+    Mode mode = Mode::swing;
+    Vec3 place{};                // of the ball of the foot while held, on the ground plane
+    Decay offset;                // of the ball to where it is going
+    Decay turn;                  // of the foot's world rotation to the clip's
+    float step_lift = 0;         // m: height of a step of its own
+    float step_age = 0;          // s
+    float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
+    Vec3 ball{}, ball_before{};  // shown
+    Vec3 clip_ball{};            // the clip's, one tick ago
   };
 
-  Vec3 hold_foot(Side side, bool planted, Vec3 ball, Vec3 clip_ball);
+  static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
+  void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);
+  void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
+  Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
   const Pose& show(const Pose& pose);
 
@@ -69,7 +90,7 @@ class Playback {
   std::array<Decay, kJointCount> rotation_;
   Decay hips_;
   std::array<Foot, 2> feet_;
-  Tick since_restep_ = 1000;
+  float since_step_ = 1;  // s: since a foot took a step of its own
 };
 
 }  // namespace ringcraft
