@@ -1,0 +1,190 @@
+#include "capture/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "capture/sheet_motion.h"
+
+namespace ringcraft {
+
+namespace {
+
+constexpr float kStraightestLeg = 0.985f;  // of its length, of a leg that stands
+constexpr float kEndTolerance = 0.012f;    // fraction of height: foot against the end guard
+constexpr int kSinkTicks = 6;              // over which the pelvis sinks to keep the feet in reach
+
+Error fault(const Document& document, const std::string& pointer, std::string what,
+            std::string remedy) {
+  return {ErrorKind::input, document.path.string(), document.place(pointer), std::move(what),
+          std::move(remedy)};
+}
+
+// Strikes need a key of their limb at start and contact: the profile runs between the two.
+std::optional<Error> check_strikes(const Document& document, const SheetAction& action,
+                                   const std::vector<SheetKey>& keys) {
+  for (std::size_t i = 0; i < action.strikes.size(); ++i) {
+    const SheetStrike& s = action.strikes[i];
+    const bool left = s.strike.joint == Joint::left_hand || s.strike.joint == Joint::left_foot;
+    const bool foot = s.strike.joint == Joint::left_foot || s.strike.joint == Joint::right_foot;
+    const Channel channel =
+        of_side(foot ? Channel::lead_ankle : Channel::lead_wrist, left ? Side::left : Side::right);
+    for (const float t : {s.start, s.contact}) {
+      const bool found = std::any_of(keys.begin(), keys.end(), [&](const SheetKey& key) {
+        return std::abs(key.t - t) < 2e-3f && key.values[index(channel)];
+      });
+      if (found) continue;
+      return fault(document, fmt::format("{}/strike/{}", action.pointer, i),
+                   fmt::format("no key gives {} at {:.3f} s", info(channel).name, t),
+                   "add a key at the strike's start and at its contact");
+    }
+  }
+  return std::nullopt;
+}
+
+// The trunk's curves at every tick, filtered so that no key can be seen.
+std::vector<BodyTargets> trunk_targets(const TrunkMotion& trunk, std::size_t count) {
+  std::vector<BodyTargets> targets(count);
+  std::vector<Vec3> pelvis(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    trunk.fill(static_cast<float>(seconds(static_cast<Tick>(i))), targets[i]);
+    pelvis[i] = targets[i].pelvis;
+  }
+  smooth(pelvis, 2.5f);
+  const auto filter = [&](auto member) {
+    // About the rotation of the tick, neighbours are small turns, which average like vectors.
+    std::vector<Vec3> turns(count);
+    for (std::size_t i = 1; i < count; ++i) {
+      const Quat before = targets[i - 1].*member,
+                 now = in_hemisphere_of(targets[i].*member, before);
+      turns[i] = turns[i - 1] + rotation_vector(now * glm::inverse(before));
+    }
+    const std::vector<Vec3> raw = turns;
+    smooth(turns, 2.0f);
+    for (std::size_t i = 0; i < count; ++i) {
+      targets[i].*member =
+          glm::normalize(from_rotation_vector(turns[i] - raw[i]) * targets[i].*member);
+    }
+  };
+  filter(&BodyTargets::pelvis_rotation);
+  filter(&BodyTargets::chest_rotation);
+  filter(&BodyTargets::head_rotation);
+  for (std::size_t i = 0; i < count; ++i) targets[i].pelvis = pelvis[i];
+  return targets;
+}
+
+void add_hands(const Skeleton& skeleton, const SheetAction& action,
+               const std::vector<SheetKey>& keys, const TrunkMotion& trunk,
+               std::vector<BodyTargets>& targets) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const HandMotion hand(skeleton, action, keys, trunk, i == 0 ? Side::left : Side::right);
+    std::vector<Vec3> wrist(targets.size());
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      targets[k].arms[i] = hand.at(static_cast<float>(seconds(static_cast<Tick>(k))), targets[k]);
+      wrist[k] = targets[k].arms[i].wrist;
+    }
+    smooth(wrist, hand.strikes() ? 0.8f : 2.0f);
+    for (std::size_t k = 0; k < targets.size(); ++k) targets[k].arms[i].wrist = wrist[k];
+  }
+}
+
+// From the root's frame to action space.
+void place(BodyTargets& targets, const Placement& root) {
+  const Quat turn = yaw_rotation(root.yaw);
+  targets.pelvis = root * targets.pelvis;
+  targets.pelvis_rotation = turn * targets.pelvis_rotation;
+  targets.chest_rotation = turn * targets.chest_rotation;
+  targets.head_rotation = turn * targets.head_rotation;
+  for (ArmTarget& arm : targets.arms) {
+    arm.wrist = root * arm.wrist;
+    arm.pole = turn * arm.pole;
+  }
+}
+
+// Lowers the pelvis, and the hands with it, where a standing leg would not reach its foot.
+void keep_in_reach(const Skeleton& skeleton, std::vector<BodyTargets>& targets) {
+  std::vector<float> sink;
+  for (const BodyTargets& t : targets) sink.push_back(missing_reach(skeleton, t, kStraightestLeg));
+  widen(sink, kSinkTicks);
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i].pelvis.y -= sink[i];
+}
+
+Result<Action> compile(const Document& document, const SheetAction& sheet) {
+  static const Skeleton skeleton = canonical_skeleton();
+  const std::vector<SheetKey> keys = merged_keys(sheet);
+  if (auto error = check_strikes(document, sheet, keys)) return tl::unexpected(*error);
+
+  Action action = sheet.action;
+  Clip& clip = action.clip;
+  clip.root = root_track(sheet, keys);
+  const std::size_t count = clip.root.size();
+  const TrunkMotion trunk(sheet, keys);
+  std::vector<BodyTargets> targets = trunk_targets(trunk, count);
+  add_hands(skeleton, sheet, keys, trunk, targets);
+  for (std::size_t i = 0; i < count; ++i) place(targets[i], clip.root[i]);
+
+  clip.contacts.resize(count);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootMotion foot(skeleton, sheet, keys, clip.root, trunk,
+                          side == 0 ? Side::left : Side::right);
+    if (foot.end_error() > kEndTolerance * kCanonicalHeight) {
+      return tl::unexpected(
+          fault(document, sheet.pointer,
+                fmt::format("'{}': the {} foot ends {:.2f} m from its place in the end pose",
+                            action.name, side == 0 ? "lead" : "rear", foot.end_error()),
+                "add a step, or correct end_at"));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const float t = static_cast<float>(seconds(static_cast<Tick>(i)));
+      targets[i].feet[side] = foot.at(t, targets[i]);
+      (side == 0 ? clip.contacts[i].left : clip.contacts[i].right) = foot.planted(t);
+    }
+  }
+  keep_in_reach(skeleton, targets);
+  for (const BodyTargets& t : targets) clip.frames.push_back(body_pose(skeleton, t));
+  unroll_rotations(clip);
+  for (const SheetStrike& strike : sheet.strikes) {
+    Strike s = strike.strike;
+    s.active_begin = ticks(strike.active_begin);
+    s.active_end = ticks(strike.active_end);
+    action.strikes.push_back(s);
+  }
+  const std::vector<std::string> broken = faults(clip);
+  if (!broken.empty()) {
+    return tl::unexpected(
+        fault(document, sheet.pointer,
+              fmt::format("'{}' compiles to a broken clip: {}", action.name, broken[0]),
+              "look for keys far outside the body's reach"));
+  }
+  return action;
+}
+
+Result<std::vector<Action>> compile_all(const Document& document) {
+  auto sheets = sheet_actions(document);
+  if (!sheets) return tl::unexpected(sheets.error());
+  std::vector<Action> actions;
+  for (const SheetAction& sheet : *sheets) {
+    auto action = compile(document, sheet);
+    if (!action) return tl::unexpected(action.error());
+    actions.push_back(std::move(*action));
+  }
+  return actions;
+}
+
+}  // namespace
+
+Result<std::vector<Action>> compile_sheet_file(const std::filesystem::path& path) {
+  const auto document = read_document(path, "sheet");
+  if (!document) return tl::unexpected(document.error());
+  return compile_all(*document);
+}
+
+Result<std::vector<Action>> compile_sheet_text(const std::string& text,
+                                               const std::filesystem::path& path) {
+  const auto document = parse_document(text, path, "sheet");
+  if (!document) return tl::unexpected(document.error());
+  return compile_all(*document);
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cmath>
+
+#include "capture/sheet_motion.h"
+
+namespace ringcraft {
+
+namespace {
+
+constexpr float kH = kCanonicalHeight;
+constexpr float kLetGo = 0.10f;    // s: from a set foot to a hanging one, and back
+constexpr float kRollOff = 14.0f;  // degrees of heel in the middle of a step
+constexpr float kHanging = 25.0f;  // degrees of point of a foot that hangs
+
+float eased(float from, float to, float x) {
+  const float u = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return u * u * (3 - 2 * u);
+}
+
+const Placement& placement_at(const std::vector<Placement>& root, float t) {
+  const auto last = static_cast<Tick>(root.size()) - 1;
+  return root[static_cast<std::size_t>(std::clamp<Tick>(ticks(t), 0, last))];
+}
+
+}  // namespace
+
+FootMotion::FootMotion(const Skeleton& skeleton, const SheetAction& action,
+                       const std::vector<SheetKey>& keys, const std::vector<Placement>& root,
+                       const TrunkMotion& trunk, Side side)
+    : skeleton_(skeleton), side_(side) {
+  const Placement end = end_placement(action);
+  make_spans(action, end);
+  make_angles(action, keys, root, end);
+  make_paths(action, keys, root);
+  make_knee(action, keys, root, trunk);
+}
+
+void FootMotion::make_spans(const SheetAction& action, const Placement& end) {
+  const std::size_t i = side_ == Side::left ? 0 : 1;
+  const auto on_ground = [&](const std::optional<Vec2>& ball) {
+    const Vec2 at = ball.value_or(Vec2(0));
+    return Vec3(at.x * kH, skeleton_.toe_height(), at.y * kH);
+  };
+  const bool starts_set = action.start.ball[i].has_value();
+  const bool ends_set = action.end.ball[i].has_value();
+  const Vec3 guard = on_ground(ends_set ? action.end.ball[i] : action.start.ball[i]);
+  Vec3 ball = starts_set ? on_ground(action.start.ball[i]) : guard;
+  start_ball_ = ball;
+  bool set = starts_set;
+  for (const SheetStep& step : action.steps) {
+    if (step.foot != side_) continue;
+    Span span;
+    span.lift = set ? step.lift : 0;
+    span.land = step.land.value_or(action.length + 1);
+    span.starts_free = !set;
+    span.ends_free = !step.land;
+    span.free = step.free || span.starts_free || span.ends_free;
+    span.height = step.height * kH;
+    span.from = ball;
+    Placement at = end;
+    if (step.at) at = {step.at->x * kH, step.at->y * kH, radians(step.at->z)};
+    if (step.land) ball = at * guard;
+    span.to = ball;
+    set = step.land.has_value();
+    spans_.push_back(std::move(span));
+  }
+  if (!starts_set && spans_.empty()) {
+    Span span;
+    span.land = action.length + 1;
+    span.from = span.to = ball;
+    span.free = span.starts_free = span.ends_free = true;
+    spans_.push_back(std::move(span));
+    set = false;
+  }
+  if (set && ends_set) end_error_ = glm::distance(ball, end * guard);
+}
+
+void FootMotion::make_angles(const SheetAction& action, const std::vector<SheetKey>& keys,
+                             const std::vector<Placement>& root, const Placement& end) {
+  const Channel yaw = of_side(Channel::lead_foot_yaw, side_);
+  const Channel heel = of_side(Channel::lead_heel, side_);
+  const Channel point = of_side(Channel::lead_point, side_);
+  const auto value = [](const KeyValues& values, Channel channel, float fallback) {
+    const auto& v = values[index(channel)];
+    return v ? v->x : fallback;
+  };
+  const float guard_yaw = value(action.end.values, yaw, value(action.start.values, yaw, -45));
+  const float guard_heel = value(action.end.values, heel, value(action.start.values, heel, 0));
+  // Events in order of time: keys, lifts (the foot keeps what it had) and landings (as in the
+  // guard).
+  struct Event {
+    float t;
+    std::optional<float> yaw, heel;
+  };
+  std::vector<Event> events;
+  for (const SheetKey& key : keys) {
+    Event event{key.t, {}, {}};
+    if (key.values[index(yaw)]) {
+      const bool last = key.t >= action.length - 1e-4f;
+      const float turned = last ? end.yaw : placement_at(root, key.t).yaw;
+      event.yaw = key.values[index(yaw)]->x + degrees(turned);
+    }
+    if (key.values[index(heel)]) event.heel = key.values[index(heel)]->x;
+    if (event.yaw || event.heel) events.push_back(event);
+  }
+  std::size_t step_index = 0;
+  for (const SheetStep& step : action.steps) {
+    if (step.foot != side_) continue;
+    const Span& span = spans_[step_index++];
+    events.push_back({span.lift, {}, {}});
+    if (!step.land) continue;
+    const float turned = step.at ? step.at->z : degrees(end.yaw);
+    events.push_back({*step.land, guard_yaw + turned, guard_heel});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.t < b.t; });
+  float last_yaw = guard_yaw, last_heel = guard_heel;
+  for (const Event& event : events) {
+    const bool lift = !event.yaw && !event.heel;
+    if (event.yaw || lift) yaw_.add(event.t, Vec3(last_yaw = event.yaw.value_or(last_yaw), 0, 0));
+    if (event.heel || lift)
+      heel_.add(event.t, Vec3(last_heel = event.heel.value_or(last_heel), 0, 0));
+  }
+  for (const SheetKey& key : keys) {
+    const bool edge = key.t <= 0 || key.t >= action.length - 1e-4f;
+    const auto& v = key.values[index(point)];
+    if (v || edge) point_.add(key.t, v.value_or(Vec3(kHanging, 0, 0)));
+  }
+}
+
+void FootMotion::make_paths(const SheetAction& action, const std::vector<SheetKey>& keys,
+                            const std::vector<Placement>& root) {
+  const Channel ankle = of_side(Channel::lead_ankle, side_);
+  for (Span& span : spans_) {
+    if (!span.free) continue;
+    std::vector<float> times;
+    std::vector<Vec3> points;
+    const auto set_ankle = [&](float t, Vec3 ball) {
+      FootTarget foot;
+      foot.ball = ball;
+      foot.yaw = radians(yaw_.at(t).x);
+      foot.heel = radians(heel_.at(t).x);
+      times.push_back(t);
+      points.push_back(ankle_of(skeleton_, foot));
+    };
+    if (!span.starts_free) set_ankle(span.lift, span.from);
+    for (const SheetKey& key : keys) {
+      const auto& value = key.values[index(ankle)];
+      const bool inside =
+          (span.starts_free ? key.t >= 0 : key.t > span.lift + 1e-3f) && key.t < span.land - 1e-3f;
+      if (!value || !inside) continue;
+      times.push_back(key.t);
+      points.push_back(placement_at(root, key.t) * (*value * kH));
+    }
+    if (!span.ends_free) set_ankle(span.land, span.to);
+    if (times.empty()) {
+      times.push_back(0);
+      points.push_back(span.from + kUp * (0.05f * kH));
+    }
+    std::vector<ProfileWindow> windows;
+    for (const SheetStrike& strike : action.strikes) {
+      const bool inside = strike.start > span.lift - 1e-3f && strike.contact < span.land;
+      if (strike.strike.joint == leg(side_).end && inside) {
+        windows.push_back({strike.start, strike.contact, speed_profile(strike.profile)});
+      }
+    }
+    span.path.emplace(times, points, windows);
+  }
+}
+
+void FootMotion::make_knee(const SheetAction& action, const std::vector<SheetKey>& keys,
+                           const std::vector<Placement>& root, const TrunkMotion& trunk) {
+  const Channel knee = of_side(Channel::lead_knee, side_);
+  const bool any = std::any_of(keys.begin(), keys.end(), [&](const SheetKey& k) {
+    return k.values[index(knee)].has_value();
+  });
+  if (!any) return;
+  for (const SheetKey& key : keys) {
+    const bool edge = key.t <= 0 || key.t >= action.length - 1e-4f;
+    const auto& value = key.values[index(knee)];
+    if (!value && !edge) continue;
+    BodyTargets body;
+    trunk.fill(key.t, body);
+    const Placement& place = placement_at(root, key.t);
+    const Quat turn = yaw_rotation(place.yaw);
+    const Quat pelvis = turn * body.pelvis_rotation;
+    Vec3 pole =
+        pelvis * kForward * 0.5f + yaw_rotation(radians(yaw_.at(key.t).x)) * kForward * 0.5f;
+    if (value) {
+      const Vec3 hip = place * body.pelvis + pelvis * skeleton_.offset[index(leg(side_).root)];
+      const FootTarget foot = at(key.t, body);
+      const Vec3 line = normalized_or(ankle_of(skeleton_, foot) - hip, -kUp);
+      const Vec3 from_hip = place * (*value * kH) - hip;
+      const Vec3 off = from_hip - line * glm::dot(from_hip, line);
+      if (glm::length(off) > 0.01f * kH) pole = glm::normalize(off);
+    }
+    knee_.add(key.t, glm::inverse(pelvis) * pole);
+  }
+}
+
+const FootMotion::Span* FootMotion::span_at(float t) const {
+  for (const Span& span : spans_) {
+    if (t > span.lift && t < span.land) return &span;
+    if (span.starts_free && t < span.land) return &span;
+  }
+  return nullptr;
+}
+
+float FootMotion::freedom(const Span& span, float t) const {
+  if (!span.free) return 0;
+  const float up = span.starts_free ? 1 : eased(span.lift, span.lift + kLetGo, t);
+  const float down = span.ends_free ? 1 : 1 - eased(span.land - kLetGo, span.land, t);
+  return std::min(up, down);
+}
+
+bool FootMotion::planted(float t) const {
+  return span_at(t) == nullptr;
+}
+
+FootTarget FootMotion::at(float t, const BodyTargets& trunk) const {
+  FootTarget foot;
+  foot.ball = start_ball_;
+  for (const Span& span : spans_) {
+    if (t >= span.land) foot.ball = span.to;
+  }
+  foot.yaw = radians(yaw_.at(t).x);
+  foot.heel = radians(heel_.at(t).x);
+  foot.point = radians(point_.at(t).x);
+  if (!knee_.empty()) {
+    foot.knee_pole = trunk.pelvis_rotation * normalized_or(knee_.at(t), kForward);
+  }
+  const Span* span = span_at(t);
+  if (span == nullptr) return foot;
+  const float u = std::clamp((t - span->lift) / (span->land - span->lift), 0.0f, 1.0f);
+  if (!span->free) {
+    // A quick low arc: away at once, the height leaves and meets the floor without a blow.
+    const float along = u * u * (3 - 2 * u);
+    const float rise = std::sin(kPi * u) * std::sin(kPi * u);
+    foot.ball = span->from + (span->to - span->from) * along + kUp * (span->height * rise);
+    foot.heel += radians(kRollOff) * rise * (1 - u);
+    return foot;
+  }
+  foot.ball = u < 0.5f ? span->from : span->to;
+  foot.freedom = freedom(*span, t);
+  foot.ankle = span->path->at(t);
+  return foot;
+}
+
+}  // namespace ringcraft
