@@ -33,7 +33,8 @@ float speed_at(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick tic
 Tick full_reach(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick peak) {
   Tick best = peak;
   float farthest = 0;
-  for (Tick t = peak; t <= peak + ticks(kExtensionAfter); ++t) {
+  const Tick last = std::min(peak + ticks(kExtensionAfter), clip.length() - 1);
+  for (Tick t = peak; t <= last; ++t) {
     const Vec3 reach = from_hips(skeleton, clip, joint, t);
     const float ground = std::hypot(reach.x, reach.z);
     if (ground > farthest) {
@@ -182,15 +183,16 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
 
   for (const StrikeCut& wanted : cut.strikes) {
     const Tick at = ticks(wanted.at) - first;
-    const Tick around = ticks(kSearchAround);
-    if (at - around < 1 || at + around > action.length() - ticks(kExtensionAfter) - 1)
+    if (at < 6 || at > action.length() - 6)
       return fault(fmt::format("the strike at {} s is not inside it", wanted.at),
                    "widen begin and end");
     Strike strike;
     strike.kind = wanted.kind;
     strike.joint = wanted.joint;
     strike.zone = wanted.zone;
-    const Tick peak = fastest_tick(skeleton, action.clip, wanted.joint, at - around, at + around);
+    const Tick around = ticks(kSearchAround);
+    const Tick peak = fastest_tick(skeleton, action.clip, wanted.joint, std::max(1, at - around),
+                                   std::min(at + around, action.length() - 1));
     if (is_straight(wanted.kind))
       straight_window(skeleton, action.clip, peak, strike);
     else
