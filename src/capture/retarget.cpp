@@ -220,6 +220,7 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   turn_to_hinges(target, clip);
   const float floor = floor_height(target, clip);
   for (Pose& pose : clip.frames) pose.hips.y -= floor;
+  clear_floor(target, clip);
   plant_feet(target, clip, settings);
   unroll_rotations(clip);
   return clip;

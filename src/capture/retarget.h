@@ -31,4 +31,8 @@ std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& m
 // path; hips sink a little where a leg would not reach. Contacts must be labelled.
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings = {});
 
+// Lifts hips, elbows, wrists and knuckles that would lie in the floor, as happens when longer arms
+// or shorter legs sit where the captured person sat.
+void clear_floor(const Skeleton& skeleton, Clip& clip);
+
 }  // namespace ringcraft
