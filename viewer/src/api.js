@@ -8,7 +8,9 @@ async function contactSheet(page, { times, camera = 'side', width = 320, height 
   stage.setShadows(shadows);
   stage.resize(width, height, 1);
   for (const name of page.overlays.names()) page.overlays.set(name, name === 'ropes' || overlays.includes(name));
-  const across = columns ?? Math.max(1, Math.min(times.length, Math.floor(1920 / width)));
+  // A canvas may be 16384 pixels high.
+  const fewest = Math.ceil((times.length * height) / 16000);
+  const across = Math.max(fewest, columns ?? Math.min(times.length, Math.max(1, Math.floor(1920 / width))));
   const sheet = document.createElement('canvas');
   sheet.width = across * width;
   sheet.height = Math.ceil(times.length / across) * height;

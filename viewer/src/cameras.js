@@ -10,7 +10,7 @@ export const CAMERAS = {
   ring: 'Ring',
   orbit: 'Orbit',
 };
-const LOOK = 0.95;  // m: height of the point looked at
+const LOOK = 0.95;  // m: height of the point looked at when all stand
 
 export class Cameras {
   constructor(stage, cast, changed) {
@@ -50,6 +50,12 @@ export class Cameras {
     return widest + 1.5;
   }
 
+  // The middle of the fight at the height to look at: lower when somebody is down.
+  aim(t) {
+    const centre = this.cast.centre(t);
+    return centre.setY(Math.min(LOOK, 0.42 + 0.58 * centre.y));
+  }
+
   set(name, keep = false) {
     if (!(name in CAMERAS)) return false;
     this.name = name;
@@ -58,14 +64,13 @@ export class Cameras {
     return true;
   }
 
-  // Three quarters from the front, the fighters' axis across the picture.
+  // Three quarters from a side, the first fighter at the left.
   place(t) {
-    const centre = this.cast.centre(t).setY(LOOK);
-    const across = this.cast.axis(t);
-    const out = new Vector3(across.z, 0, -across.x);
-    if (out.dot(new Vector3(0.5, 0, 1)) < 0) out.negate();  // the side the key light is on
-    const from = out.applyAxisAngle(new Vector3(0, 1, 0), 0.42).multiplyScalar(this.distance(this.spread(t)) * 1.12);
-    this.stage.camera.position.copy(centre).add(from).setY(LOOK + 0.75);
+    const centre = this.aim(t);
+    const axis = this.cast.axis(t);
+    const from = new Vector3(-axis.z, 0, axis.x).applyAxisAngle(new Vector3(0, 1, 0), -0.38);
+    this.stage.camera.position.copy(centre).addScaledVector(from, this.distance(this.spread(t)) * 1.12);
+    this.stage.camera.position.y = centre.y + 0.75;
     this.target.copy(centre);
     this.controls.target.copy(centre);
     this.controls.update();
@@ -74,13 +79,12 @@ export class Cameras {
   // Puts the camera where the chosen view has it at time t.
   update(t) {
     const { camera } = this.stage;
-    const centre = this.cast.centre(t).setY(LOOK);
+    const centre = this.aim(t);
     const axis = this.cast.axis(t);
     const side = new Vector3(-axis.z, 0, axis.x);  // seen from here the first fighter stands at the left
     const away = this.distance(this.spread(t));
     if (this.name === 'follow') {
       const moved = centre.clone().sub(this.target);
-      moved.y = 0;
       camera.position.add(moved);
       this.controls.target.add(moved);
       this.target.copy(centre);

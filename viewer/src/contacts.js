@@ -70,7 +70,7 @@ class Marker {
     const faded = age < 0 ? 1 : Math.max(0, 1 - (age / AFTER) ** 2);
     for (const material of this.materials) material.opacity = material.userData.opacity * faded;
     this.ring.quaternion.copy(camera.quaternion);
-    this.ring.scale.setScalar(1 + 2.2 * Math.sqrt(Math.max(0, age) / AFTER));
+    this.ring.scale.setScalar(1 + 1.3 * Math.sqrt(Math.max(0, age) / AFTER));
   }
 }
 

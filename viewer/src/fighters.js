@@ -1,5 +1,5 @@
 // The fighters of a GLB: their joints by canonical name, their capsules, and where joints are at any time.
-import { AnimationMixer, Vector3 } from 'three';
+import { AnimationMixer, Color, SRGBColorSpace, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 export const load = (buffer) =>
@@ -28,6 +28,22 @@ function capsulesOf(extras, joints) {
   return extras.capsules
     .map((c) => ({ joint: joints.get(c.joint), a: point(c.a), b: point(c.b), radius: c.radius }))
     .filter((c) => c.joint && c.a && c.b && c.radius > 0);
+}
+
+// Colours that tell the fighters apart in the page: their gloves', light enough to read on dark, unless
+// two are alike.
+function coloursOf(gltf, count, palette) {
+  const hues = [];
+  for (let i = 0; i < count; ++i) {
+    const made = gltf.parser.json.materials?.find((m) => m.name === `fighter${i}_gloves`);
+    const base = made?.pbrMetallicRoughness?.baseColorFactor;
+    if (!base) return palette;
+    const hsl = new Color(base[0], base[1], base[2]).getHSL({}, SRGBColorSpace);
+    const apart = (h) => Math.min(Math.abs(h - hsl.h), 1 - Math.abs(h - hsl.h));
+    if (hsl.s < 0.25 || hues.some((h) => apart(h) < 0.06)) return palette;
+    hues.push(hsl.h);
+  }
+  return hues.map((h) => `#${new Color().setHSL(h, 1, 0.66, SRGBColorSpace).getHexString()}`);
 }
 
 class Fighter {
@@ -66,9 +82,10 @@ export class Cast {
       const match = /^fighter(\d+)$/.exec(nameOf(node));
       if (match) nodes[Number(match[1])] ??= node;
     });
+    const shown = coloursOf(gltf, nodes.length, colours);
     nodes.forEach((node, i) => {
       const told = header.fighters?.[i] ?? {};
-      this.fighters.push(new Fighter(i, node, told.name, colours[i % colours.length], nameOf));
+      this.fighters.push(new Fighter(i, node, told.name, shown[i % shown.length], nameOf));
     });
     if (!this.fighters.length) throw new Error('fight.glb has no node named fighter0');
     this.root.traverse((mesh) => {
@@ -118,7 +135,7 @@ export class Cast {
     if (shown >= 0) this.pose(shown);
   }
 
-  // Where the fight is: mean of the hips over half a second around t, on the ground.
+  // Where the fight is: mean of the hips over almost a second around t.
   centre(t) {
     const f = Math.round(t * this.rate);
     const reach = Math.round(0.4 * this.rate);
@@ -126,7 +143,7 @@ export class Cast {
     const sum = new Vector3();
     const count = (2 * reach + 1) * this.fighters.length;
     for (let k = -reach; k <= reach; ++k) for (const fighter of this.at(f + k)) sum.add(fighter.hips);
-    return sum.multiplyScalar(1 / count).setY(0);
+    return sum.multiplyScalar(1 / count);
   }
 
   // From the first fighter to the second, on the ground, smoothed alike; unit length.

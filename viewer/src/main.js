@@ -247,11 +247,27 @@ class Page {
     this.invalidate();
   }
 
-  fit() {
+  // `share` of the pixels across: fewer while a slow machine plays.
+  fit(share = 1) {
     const box = $('view').getBoundingClientRect();
     if (box.width < 2 || box.height < 2) return;
-    this.stage.resize(box.width, box.height);
+    this.share = share;
+    this.stage.resize(box.width, box.height, share * Math.min(window.devicePixelRatio || 1, 2));
     this.invalidate();
+  }
+
+  // Trades sharpness for speed while playing; a paused picture is always sharp.
+  pace(seconds) {
+    if (!this.player.playing) {
+      if (this.share < 1) this.fit();
+      this.slow = 0;
+    } else if (seconds > 0.045) {
+      this.slow = (this.slow ?? 0) + 1;
+      if (this.slow > 6 && this.share > 0.4) {
+        this.fit(this.share * 0.75);
+        this.slow = 0;
+      }
+    } else this.slow = 0;
   }
 
   // One picture at the next chance; while playing, one after the other.
@@ -261,6 +277,7 @@ class Page {
       this.waiting = 0;
       const seconds = this.last === undefined ? 0 : (now - this.last) / 1000;
       this.last = now;
+      this.pace(seconds);
       this.player.advance(seconds);
       this.draw();
       if (this.player.playing) this.invalidate();

@@ -74,10 +74,15 @@ export class Panels {
     this.listed = this.story.events.filter((event) => this.shown.has(event.type) || !FILTERS.includes(event.type));
     this.list.innerHTML = this.listed.map((event) =>
       `<li><button data-event="${event.index}" style="--c:${TYPES[event.type]?.colour ?? '#8b95a5'};--f:${this.colours[event.who] ?? '#8b95a5'}">` +
-      `<time>${event.t.toFixed(2)}</time><i></i><span>${escapeHtml(this.story.tell(event))}</span>${event.damage > 0 ? `<em>−${event.damage.toFixed(1)}</em>` : ''}</button></li>`).join('') ||
+      `<time>${event.t.toFixed(2)}</time><i></i><span>${escapeHtml(this.story.tell(event))}</span>${event.damage > 0 ? `<em>−${event.damage.toFixed(1)}</em>` : ''}</button>${this.figures(event)}</li>`).join('') ||
       '<li class="none">No events of these types.</li>';
     this.rows = [...this.list.querySelectorAll('[data-event]')];
     this.current = -1;
+  }
+
+  figures(event) {
+    const rows = ['hit', 'block', 'knockdown'].includes(event.type) ? this.story.figures(event) : [];
+    return rows.length ? `<dl>${rows.map(([k, v]) => `<div><dt>${escapeHtml(k)}</dt><dd>${escapeHtml(v)}</dd></div>`).join('')}</dl>` : '';
   }
 
   makeDecision() {
@@ -160,9 +165,9 @@ export class Panels {
   show(t) {
     const current = this.story.lastAt(this.listed, t);
     if (current !== this.current) {
-      this.rows[this.current]?.classList.remove('current');
+      this.rows[this.current]?.parentNode.classList.remove('current');
       this.current = current;
-      this.rows[current]?.classList.add('current');
+      this.rows[current]?.parentNode.classList.add('current');
       if (this.tab === 'events') this.reveal();
     }
     const { decisions } = this.story;

@@ -20,7 +20,7 @@ function canvasTexture(size) {
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = n;
   const g = canvas.getContext('2d');
-  g.fillStyle = '#7f8a99';
+  g.fillStyle = '#737d8b';
   g.fillRect(0, 0, n, n);
   const random = grain();
   for (let i = 0; i < 26000; ++i) {
@@ -137,8 +137,11 @@ export function makeRing(inside) {
   above.userData.clear = (camera, keep) => {
     for (const { outward, materials } of sides) {
       const inside = half - outward.dot(camera.position);  // m from the ropes, negative outside
-      const opacity = keep ? 1 : Math.min(1, Math.max(0.1, (inside - 0.7) / 0.6));
-      for (const material of materials) material.opacity = opacity;
+      const opacity = keep ? 1 : Math.min(1, Math.max(0, (inside - 0.7) / 0.6));
+      for (const material of materials) {
+        material.opacity = opacity;
+        material.visible = opacity > 0.02;
+      }
     }
   };
   ring.add(above);

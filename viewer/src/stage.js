@@ -30,7 +30,7 @@ function backdrop() {
 }
 
 function lights(scene) {
-  scene.add(new HemisphereLight('#c9d8ff', '#4a3f38', 1.15));
+  scene.add(new HemisphereLight('#c9d8ff', '#4a3f38', 0.95));
 
   // Key: the lamps over the ring, warm, a little to one side so that bodies are modelled.
   const key = new DirectionalLight('#fff0dc', 2.7);
@@ -43,7 +43,7 @@ function lights(scene) {
   key.shadow.radius = 4;
   scene.add(key, key.target);
 
-  const rim = new DirectionalLight('#8fb4ff', 1.5);
+  const rim = new DirectionalLight('#8fb4ff', 2.1);
   rim.position.set(-4.5, 4.5, -5.5);
   const fill = new DirectionalLight('#ffd9c2', 0.45);
   fill.position.set(-5, 2.5, 4);
@@ -71,6 +71,9 @@ export class Stage {
   resize(width, height, ratio = Math.min(window.devicePixelRatio || 1, 2)) {
     const w = Math.max(1, Math.floor(width));
     const h = Math.max(1, Math.floor(height));
+    const size = `${w} ${h} ${ratio}`;
+    if (size === this.size) return;  // a resize clears the picture, and waits for the graphics card
+    this.size = size;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / h;

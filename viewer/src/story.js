@@ -93,4 +93,20 @@ export class Story {
       default: return `${who} ${plain(event.type)}`;
     }
   }
+
+  // Figures of an event, for those who ask: [name, value].
+  figures(event) {
+    const rows = [];
+    const add = (name, value, unit, digits) => {
+      if (Number.isFinite(value) && value !== 0) rows.push([name, `${value.toFixed(digits)} ${unit}`]);
+    };
+    add('closing speed', event.speed_mps, 'm/s', 1);
+    add('effective mass', event.effective_mass_kg, 'kg', 2);
+    add('impulse', sizeOf(event.impulse), 'N·s', 1);
+    add('head spin', event.head_spin_radps, 'rad/s', 1);
+    add('damage', event.damage, 'points', 1);
+    if (event.response && event.type !== 'response') rows.push(['answer', plain(event.response) + (event.steps ? ` (${event.steps})` : '')]);
+    if (event.type === 'hit') rows.push(['foreseen', event.foreseen ? 'yes' : 'no']);
+    return rows;
+  }
 }

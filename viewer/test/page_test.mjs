@@ -23,7 +23,7 @@ before(async () => {
   address = pathToFileURL(path.resolve(file)).href;
   browser = await launch();
   paper = await browser.newPage();
-  page = await browser.newPage({ viewport: { width: 1100, height: 700 } });
+  page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
   page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('request', (request) => requests.push(request.url()));
