@@ -24,22 +24,23 @@ struct PruneSettings {
   bool unanswered_hit = true;
   bool back_turned = true;
   bool penetration = true;
-  double penetration_m = 0.03;    // deeper prunes the branch
-  Tick penetration_every = 4;     // ticks between checks
+  double penetration_m = 0.03;  // deeper prunes the branch
+  Tick penetration_every = 4;   // ticks between checks
 };
 
 struct PlanSettings {
   PruneSettings prune;
-  std::uint64_t node_limit = 60'000;  // per decision; 0 is none. Iterative deepening only under a limit
-  int threads = 1;                    // never changes the result
-  double ring_half_m = 3.0;           // half the side of the square ring; 0 is no ring
+  std::uint64_t node_limit =
+      60'000;                // per decision; 0 is none. Iterative deepening only under a limit
+  int threads = 1;           // never changes the result
+  double ring_half_m = 3.0;  // half the side of the square ring; 0 is no ring
   bool hits_on_downed = false;
-  bool alpha_beta = true;             // false: plain minimax, for tests
+  bool alpha_beta = true;  // false: plain minimax, for tests
 };
 
 struct Plan {
-  Launch launch;           // of the chosen action
-  DecisionRecord record;   // lines, nodes, what was pruned
+  Launch launch;                // of the chosen action
+  DecisionRecord record;        // lines, nodes, what was pruned
   std::vector<Event> foreseen;  // hits with their responses along the principal variation
 };
 

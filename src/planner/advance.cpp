@@ -1,0 +1,274 @@
+// From one decision to the next: contacts, evasions, the location integral and penetration.
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/duel.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kBodyRadius =
+    0.25f;  // m: a blow that passes nearer to where a body stood was in reach
+constexpr std::int32_t kHitFault = 1'000;
+
+bool spent(const Launch& launch, std::size_t strike) {
+  return strike < 8 && ((launch.spent >> strike) & 1u) != 0;
+}
+
+void spend(Launch& launch, std::size_t strike) {
+  if (strike < 8) launch.spent = static_cast<std::uint8_t>(launch.spent | (1u << strike));
+}
+
+// Distance on the ground from `point` to the segment a-b.
+float ground_distance(Vec3 point, Vec3 a, Vec3 b) {
+  const Vec2 p(point.x - a.x, point.z - a.z), d(b.x - a.x, b.z - a.z);
+  const float length2 = glm::dot(d, d);
+  const float t = length2 > 1e-9f ? std::clamp(glm::dot(p, d) / length2, 0.0f, 1.0f) : 0.0f;
+  return glm::length(p - d * t);
+}
+
+// The first multiple of `every` after `tick`.
+Tick next_multiple(Tick tick, Tick every) {
+  return (tick / every + 1) * every;
+}
+
+}  // namespace
+
+// Ticks over which one strike may meet one victim before the next decision.
+struct Duel::Window {
+  int attacker = 0;  // side; 2 + index of a bystander
+  int victim = 0;
+  std::size_t strike = 0;
+  const InFlight* flight = nullptr;
+  Tick from = 0, to = 0;  // both included
+};
+
+struct Duel::Met {
+  Window window;
+  Contact contact;
+  Tick tick = 0;
+};
+
+std::vector<Duel::Window> Duel::windows(const Node& node, Tick end) const {
+  std::vector<Window> result;
+  const auto add = [&](int attacker, const InFlight& flight, int victim) {
+    const Duelist& target = node.side[static_cast<std::size_t>(victim)];
+    if (target.balance == 2 && !setup_->settings.hits_on_downed) return;
+    for (std::size_t i = 0; i < flight.table->strikes.size(); ++i) {
+      const StrikeTable& strike = flight.table->strikes[i];
+      if (spent(flight.launch, i)) continue;
+      if (attacker >= 2 &&
+          (i >= 4 || attacker >= 10 ||
+           ((node.threats_met >> (4 * (attacker - 2) + static_cast<int>(i))) & 1u)))
+        continue;
+      const Tick from = std::max(node.now + 1, flight.launch.start + strike.strike.active_begin);
+      const Tick last =
+          std::min(flight.launch.end, flight.launch.start + strike.strike.active_end - 1);
+      const Tick to = std::min(end, last);
+      if (from > to || !may_reach(flight, strike, target.flight)) continue;
+      result.push_back({attacker, victim, i, &flight, from, to});
+    }
+  };
+  add(0, node.side[0].flight, 1);
+  add(1, node.side[1].flight, 0);
+  for (std::size_t k = 0; k < setup_->others.size(); ++k) {
+    for (int victim = 0; victim < 2; ++victim) {
+      add(2 + static_cast<int>(k), setup_->others[k].flight, victim);
+    }
+  }
+  return result;
+}
+
+void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& fault) {
+  const Window& window = met.window;
+  Duelist& victim = node.side[static_cast<std::size_t>(window.victim)];
+  if (victim.pending.valid()) return;  // struck already at this tick
+  const InFlight& flight = *window.flight;
+  const StrikeTable& strike = flight.table->strikes[window.strike];
+  DuelEvent event;
+  event.tick = met.tick;
+  event.attacker = window.attacker;
+  event.victim = window.victim;
+  event.attack = flight.launch.action;
+  event.strike = window.strike;
+  event.kind = met.contact.blocked ? DuelEvent::Kind::block : DuelEvent::Kind::hit;
+  LandedBlow& blow = event.blow;
+  blow.attacker = window.attacker < 2
+                      ? side(window.attacker).body
+                      : setup_->others[static_cast<std::size_t>(window.attacker - 2)].body;
+  blow.victim = side(window.victim).body;
+  blow.attack = flight.launch.action;
+  blow.struck_action = victim.flight.launch.action;
+  blow.attack_age = flight.age(met.tick);
+  blow.struck_age = victim.flight.table->clamped(victim.flight.age(met.tick));
+  blow.kind = strike.strike.kind;
+  blow.contact = met.contact;
+  blow.attacker_yaw = flight.frame_at(met.tick).yaw - victim.flight.frame_at(met.tick).yaw;
+  event.answer = setup_->memo->answer(blow);
+  const ImpactAnswer& answer = event.answer;
+  if (events_ != nullptr) events_->push_back(event);
+
+  const bool deliberate = victim.flight.table->action->defense.has_value();
+  const bool seen =
+      move.side == window.victim && victim.flight.launch.start - flight.launch.start >=
+                                        ticks(side(window.victim).style->late_sight_s);
+  victim.health -= answer.damage;
+  const bool down = answer.outcome.response == ResponseKind::knockdown && victim.balance != 2;
+  if (window.attacker < 2) {
+    const SideSetup& attacker = side(window.attacker);
+    spend(node.side[static_cast<std::size_t>(window.attacker)].flight.launch, window.strike);
+    credit(node, window.attacker,
+           hit_points(attacker.weights, *attacker.style, strike.strike.kind, answer.damage, down),
+           true);
+    if (met.contact.blocked && deliberate) {
+      const std::int32_t full = attacker.clean_damage[flight.launch.action.at()][window.strike];
+      credit(node, window.victim, defense_points(side(window.victim).weights, full - answer.damage),
+             true);
+    }
+  } else {
+    node.threats_met |= 1u << (4 * (window.attacker - 2) + static_cast<int>(window.strike));
+    if (window.victim == 0) {  // as if the opponent had struck
+      credit(node, 1,
+             hit_points(side(1).weights, *side(1).style, strike.strike.kind, answer.damage, down),
+             true);
+    }
+  }
+  if (!met.contact.blocked && !move.forced && window.victim == move.side && !deliberate && seen &&
+      setup_->settings.prune.unanswered_hit) {
+    ++counts_.unanswered_hit;
+    fault += kHitFault + answer.damage / 10;
+  }
+  if (victim.balance == 2) return;  // lies already
+  if (!interrupts(met.contact.blocked, answer.outcome)) return;
+  victim.pending = answer.response;
+  victim.knocked_out = answer.outcome.knockout;
+  victim.flight.launch.end = met.tick;
+}
+
+// Walks the windows tick by tick; returns the tick of the first hit that cuts an action, else
+// `end`.
+Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
+  std::vector<Window> open = windows(node, end);
+  if (open.empty()) return end;
+  Tick first = end, last = 0;
+  for (const Window& window : open) {
+    first = std::min(first, window.from);
+    last = std::max(last, window.to);
+  }
+  std::vector<Met> met;
+  for (Tick tick = first; tick <= last; ++tick) {
+    met.clear();
+    for (Window& window : open) {
+      if (tick < window.from || tick > window.to) continue;
+      const Duelist& victim = node.side[static_cast<std::size_t>(window.victim)];
+      const auto contact = contact_at(*window.flight, window.flight->table->strikes[window.strike],
+                                      victim.flight, tick);
+      if (!contact) continue;
+      met.push_back({window, *contact, tick});
+      window.to = tick;  // one strike lands once
+    }
+    for (const Met& one : met) land(node, one, move, fault);
+    if (node.side[0].pending.valid() || node.side[1].pending.valid()) return tick;
+  }
+  return end;
+}
+
+// A strike whose active window has passed without contact, against a body that was defending and
+// would have been in reach: evaded.
+void Duel::judge_evasions(Node& node, Tick from, Tick to) {
+  for (int i = 0; i < 2; ++i) {
+    Duelist& attacker = node.side[static_cast<std::size_t>(i)];
+    const Duelist& victim = node.side[static_cast<std::size_t>(1 - i)];
+    const InFlight& flight = attacker.flight;
+    const auto& defense = victim.flight.table->action->defense;
+    for (std::size_t s = 0; s < flight.table->strikes.size(); ++s) {
+      const StrikeTable& strike = flight.table->strikes[s];
+      const Tick begin = flight.launch.start + strike.strike.active_begin;
+      const Tick over = flight.launch.start + strike.strike.active_end;
+      if (over <= from || over > to || spent(flight.launch, s) || victim.pending.valid()) continue;
+      if (!defense) continue;
+      const Tick guarded = victim.flight.launch.start + defense->begin;
+      const Tick open = victim.flight.launch.start + defense->end;
+      if (open <= begin || guarded >= over) continue;
+      const Frame frame = flight.frame_at(flight.launch.start + strike.landing_tick);
+      const Vec3 stood = victim.flight.launch.placement.position();
+      if (ground_distance(stood, {frame.x, 0, frame.z}, frame.to_outer(strike.landing)) >
+          kBodyRadius)
+        continue;
+      const std::int32_t full = side(i).clean_damage[flight.launch.action.at()][s];
+      credit(node, 1 - i, defense_points(side(1 - i).weights, full), true);
+      spend(attacker.flight.launch, s);
+      if (events_ != nullptr) {
+        DuelEvent event;
+        event.tick = over;
+        event.attacker = i;
+        event.victim = 1 - i;
+        event.attack = flight.launch.action;
+        event.strike = s;
+        event.kind = DuelEvent::Kind::evaded;
+        events_->push_back(event);
+      }
+    }
+  }
+}
+
+// F_loc over (from, to], sampled at multiples of kLocationEvery ticks, so that it adds up along a
+// route however the route is cut into edges.
+void Duel::add_location(Node& node, Tick from, Tick to) const {
+  constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
+  for (Tick tick = next_multiple(from, kLocationEvery); tick <= to; tick += kLocationEvery) {
+    const Placement roots[2] = {node.side[0].flight.root_at(tick),
+                                node.side[1].flight.root_at(tick)};
+    for (int i = 0; i < 2; ++i) {
+      if (setup_->factors.rest[i] == 0) continue;
+      const Placement &own = roots[i], &their = roots[1 - i];
+      const float dx = their.x - own.x, dz = their.z - own.z;
+      const float distance = std::sqrt(dx * dx + dz * dz);
+      const float ahead = dx * std::sin(own.yaw) + dz * std::cos(own.yaw);
+      const float cosine = distance > 1e-4f ? ahead / distance : 1.0f;
+      double to_ropes = 1e3;
+      if (setup_->settings.ring_half_m > 0) {
+        to_ropes = setup_->settings.ring_half_m -
+                   static_cast<double>(std::max(std::abs(own.x), std::abs(own.z)));
+      }
+      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes), false);
+    }
+  }
+}
+
+std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tick to) {
+  const PruneSettings& prune = setup_->settings.prune;
+  const InFlight& self = node.side[static_cast<std::size_t>(mover)].flight;
+  const InFlight& other = node.side[static_cast<std::size_t>(1 - mover)].flight;
+  float deepest = 0;
+  const Tick every = std::max<Tick>(1, prune.penetration_every);
+  for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
+    deepest = std::max(deepest, penetration_at(self, other, tick));
+    for (const Bystander& one : setup_->others) {
+      deepest = std::max(deepest, penetration_at(self, one.flight, tick));
+    }
+  }
+  if (static_cast<double>(deepest) <= prune.penetration_m) return 0;
+  ++counts_.penetration;
+  return 1 + static_cast<std::int32_t>(deepest * 1000);  // mm
+}
+
+std::int32_t Duel::advance(Node& node, const Move& move) {
+  if (node.side[0].pending.valid() || node.side[1].pending.valid()) return 0;
+  const Tick from = node.now;
+  const Tick end =
+      std::min({node.side[0].flight.launch.end, node.side[1].flight.launch.end, horizon_});
+  if (end <= from) return 0;
+  std::int32_t fault = 0;
+  const Tick to = meet(node, end, move, fault);
+  judge_evasions(node, from, to);
+  add_location(node, from, to);
+  if (!move.forced && setup_->settings.prune.penetration) {
+    fault += penetration_fault(node, move.side, from, to);
+  }
+  node.now = to;
+  return fault;
+}
+
+}  // namespace ringcraft

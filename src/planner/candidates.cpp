@@ -1,0 +1,280 @@
+// Candidate moves: a quick score for every action that can follow, and the best k of a mixed list.
+//
+// k is the same at every depth: lists that narrow make a deeper search lose (planning.md).
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/duel.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr double kLookAhead = 1.0;  // s of location that a candidate is credited with
+constexpr double kAnswerable =
+    0.6;  // share of an attack's worth against a body that may still answer
+constexpr double kDefenseShare =
+    0.8;  // share of a threat that a well-timed defense is expected to take
+
+const float kSineAttack = std::sin(kMostAttackAim), kCosineAttack = std::cos(kMostAttackAim);
+const float kSineOther = std::sin(kMostAim), kCosineOther = std::cos(kMostAim);
+
+// `v` seen after turning by the aim that points +Z at `target`, clamped.
+struct Aim {
+  float sine = 0, cosine = 1;
+  Aim(Vec3 target, bool attack) {
+    const float most_sine = attack ? kSineAttack : kSineOther;
+    const float most_cosine = attack ? kCosineAttack : kCosineOther;
+    const float length = std::sqrt(target.x * target.x + target.z * target.z);
+    if (length < 1e-5f) return;
+    sine = target.x / length;
+    cosine = target.z / length;
+    if (cosine < most_cosine) {
+      sine = target.x < 0 ? -most_sine : most_sine;
+      cosine = most_cosine;
+    }
+  }
+  Vec3 into(Vec3 v) const { return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z}; }
+  Vec3 out(Vec3 v) const { return {cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x}; }
+};
+
+float falling(float x, float from, float to) {  // 1 up to `from`, 0 from `to` on
+  return std::clamp((to - x) / (to - from), 0.0f, 1.0f);
+}
+
+// How well a strike reaches a body that stands at `target` of the aimed action space.
+float reaching(const StrikeTable& strike, Vec3 target) {
+  const float gap = target.z - strike.landing.z;
+  const float aside = std::abs(target.x - 0.5f * strike.landing.x);
+  return falling(gap, 0.08f, 0.28f) * falling(-gap, 0.45f, 0.75f) * falling(aside, 0.15f, 0.40f);
+}
+
+// Preference among kinds of one list.
+enum class Class { attack, defense, step, idle };
+Class class_of(Kind kind) {
+  switch (kind) {
+    case Kind::attack:
+    case Kind::combination:
+      return Class::attack;
+    case Kind::defense:
+      return Class::defense;
+    case Kind::idle:
+      return Class::idle;
+    default:
+      return Class::step;
+  }
+}
+
+}  // namespace
+
+// What every candidate of one node is weighed against.
+struct Duel::Aspect {
+  struct Threat {  // a strike of the opponent that is still to come
+    Tick begin = 0, end = 0;
+    Vec3 from{}, to{};  // its line on the ground, world
+    double worth = 0;   // points it would cost
+    bool on_target = false;
+  };
+  const SideSetup* own = nullptr;
+  const InFlight* self = nullptr;
+  const InFlight* opponent = nullptr;
+  bool opponent_down = false;
+  bool late = false;  // the opponent's attack is too young to be answered by a particular defense
+  Tick now = 0;
+  Frame end;            // the own root
+  Vec3 opponent_now{};  // world
+  double rate_now = 0;  // F_loc
+  double ring_half = 0;
+  std::vector<Threat> threats;
+
+  double ropes(Vec3 at) const {
+    return ring_half > 0 ? ring_half - static_cast<double>(std::max(std::abs(at.x), std::abs(at.z)))
+                         : 1e3;
+  }
+  double protection(const Action& action, const Frame& start, const Aim& aim,
+                    const ActionTable& table) const;
+  double location(const ActionTable& table, const Frame& start, const Aim& aim) const;
+  double attack(const ActionTable& table, ActionId id, const Frame& start, const Aim& aim) const;
+};
+
+// Points that the candidate is expected to save of what is in flight against the fighter.
+double Duel::Aspect::protection(const Action& action, const Frame& start, const Aim& aim,
+                                const ActionTable& table) const {
+  double saved = 0;
+  for (const Threat& threat : threats) {
+    if (!threat.on_target) continue;
+    double share = 0;
+    if (action.defense) {
+      const Tick begin = std::max(threat.begin, now + action.defense->begin);
+      const Tick end = std::min(threat.end, now + action.defense->end);
+      const double whole = std::max<Tick>(1, threat.end - threat.begin);
+      share = kDefenseShare * std::clamp((end - begin) / whole, 0.0, 1.0);
+    }
+    // Where the body will have gone when the blow comes.
+    const Placement& root = table.root_at((threat.begin + threat.end) / 2 - now);
+    const Vec3 at = start.to_outer(aim.out(root.position()));
+    const Vec3 line = threat.to - threat.from;
+    const float length = std::max(1e-3f, std::sqrt(line.x * line.x + line.z * line.z));
+    const float along =
+        ((at.x - threat.from.x) * line.x + (at.z - threat.from.z) * line.z) / length;
+    const float across =
+        std::abs((at.x - threat.from.x) * line.z - (at.z - threat.from.z) * line.x) / length;
+    const float away =
+        std::max(1 - falling(along - length, 0.08f, 0.28f), 1 - falling(across, 0.1f, 0.35f));
+    saved += threat.worth * std::max(share, static_cast<double>(away));
+  }
+  return saved;
+}
+
+double Duel::Aspect::location(const ActionTable& table, const Frame& start, const Aim& aim) const {
+  const Vec3 root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
+  const Vec3 then = opponent->root_at(now + table.length).position();
+  const float dx = then.x - root.x, dz = then.z - root.z;
+  const float distance = std::sqrt(dx * dx + dz * dz);
+  // Facing at the end: the start's, turned by the aim and by the clip.
+  const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
+  const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
+  const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
+  const float cosine = distance > 1e-4f ? (dx * facing_x + dz * facing_z) / distance : 1.0f;
+  const double rate = location_rate(own->weights, distance, cosine, ropes(root));
+  const double length = seconds(table.length);
+  return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
+}
+
+double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& start,
+                            const Aim& aim) const {
+  if (opponent_down) return 0;
+  double points = 0;
+  for (std::size_t i = 0; i < table.strikes.size(); ++i) {
+    const StrikeTable& strike = table.strikes[i];
+    const Tick tick = now + strike.landing_tick;
+    const Vec3 target = aim.into(start.to_inner(opponent->root_at(tick).position()));
+    const float reach = reaching(strike, target);
+    if (reach <= 0) continue;
+    const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
+    points += sure * static_cast<double>(reach) *
+              hit_points(own->weights, *own->style, strike.strike.kind,
+                         own->clean_damage[id.at()][i], false);
+  }
+  return points;
+}
+
+void Duel::score_candidates(const Node& node, int who) {
+  const Duelist& self = node.side[static_cast<std::size_t>(who)];
+  const Duelist& other = node.side[static_cast<std::size_t>(1 - who)];
+  const SideSetup& own = side(who);
+  Aspect aspect;
+  aspect.own = &own;
+  aspect.self = &self.flight;
+  aspect.opponent = &other.flight;
+  aspect.opponent_down = other.balance == 2 && !setup_->settings.hits_on_downed;
+  aspect.now = node.now;
+  aspect.end = Frame(self.flight.root_at(node.now));
+  aspect.opponent_now = other.flight.root_at(node.now).position();
+  aspect.ring_half = setup_->settings.ring_half_m;
+  const Tick age = node.now - other.flight.launch.start;
+  aspect.late = other.flight.table->action->attacks() && age < ticks(own.style->late_sight_s);
+  const Vec3 at_now{aspect.end.x, 0, aspect.end.z};
+  const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
+  const float distance_now = std::sqrt(toward.x * toward.x + toward.z * toward.z);
+  aspect.rate_now =
+      location_rate(own.weights, distance_now,
+                    distance_now > 1e-4f ? toward.z / distance_now : 1.0f, aspect.ropes(at_now));
+  bool incoming = false;
+  const auto& strikes = other.flight.table->strikes;
+  for (std::size_t i = 0; i < strikes.size(); ++i) {
+    const StrikeTable& strike = strikes[i];
+    if (i < 8 && ((other.flight.launch.spent >> i) & 1u) != 0) continue;
+    Aspect::Threat threat;
+    threat.begin = other.flight.launch.start + strike.strike.active_begin;
+    threat.end = other.flight.launch.start + strike.strike.active_end;
+    if (threat.end <= node.now) continue;
+    const Frame& frame = other.flight.aimed;
+    threat.from = {frame.x, 0, frame.z};
+    threat.to = frame.to_outer(strike.landing);
+    threat.on_target = reaching(strike, frame.to_inner(at_now)) > 0.2f;
+    const SideSetup& their = side(1 - who);
+    threat.worth = own.weights.caution *
+                   hit_points(their.weights, *their.style, strike.strike.kind,
+                              their.clean_damage[other.flight.launch.action.at()][i], false);
+    aspect.threats.push_back(threat);
+    incoming = incoming || threat.on_target;
+  }
+
+  scored_.clear();
+  std::int32_t least_turned = std::numeric_limits<std::int32_t>::max();
+  Scored spare{};
+  std::uint64_t turned_away = 0;
+  static const float kCosineBack = std::cos(kBackTurned);
+  for (const NextAction& next : self.flight.table->next) {
+    const ActionTable& table = own.tables->at(next.to);
+    const Action& action = *table.action;
+    if (aspect.late && action.defense && action.defense->particular()) continue;
+    const Frame start = aspect.end * next.alignment;
+    // The aim of an attack points its start at the opponent, that of anything else its end.
+    Vec3 target = start.to_inner(aspect.opponent_now);
+    if (!action.attacks()) target = table.end.to_inner(target);
+    const Aim aim(target, action.attacks());
+    double points = aspect.location(table, start, aim) + 0.001 * own.launch[next.to.at()];
+    if (action.attacks()) points += aspect.attack(table, next.to, start, aim);
+    if (incoming) points += aspect.protection(action, start, aim, table);
+    const Scored one{thousandths(points), action.kind, &next};
+    if (setup_->settings.prune.back_turned) {
+      const Vec3 root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
+      const Vec3 then = other.flight.root_at(node.now + table.length).position() - root;
+      const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
+      const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
+      const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
+      const float length = std::sqrt(then.x * then.x + then.z * then.z);
+      const float cosine = length > 1e-4f ? (then.x * facing_x + then.z * facing_z) / length : 1.0f;
+      if (cosine < kCosineBack) {
+        ++turned_away;
+        const auto turned = static_cast<std::int32_t>(-cosine * 1e6f);
+        if (turned < least_turned) least_turned = turned, spare = one;
+        continue;
+      }
+    }
+    scored_.push_back(one);
+  }
+  counts_.back_turned += turned_away;
+  if (scored_.empty() && spare.next != nullptr) scored_.push_back(spare);
+  pick_candidates(static_cast<std::size_t>(std::max(1, own.style->candidates)), incoming);
+}
+
+// The best of each class that must not be missing, then the best of the rest; in order of score.
+void Duel::pick_candidates(std::size_t most, bool incoming) {
+  std::stable_sort(scored_.begin(), scored_.end(), [](const Scored& a, const Scored& b) {
+    return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
+  });
+  picked_.clear();
+  if (scored_.size() <= most) {
+    picked_ = scored_;
+    return;
+  }
+  counts_.candidates += scored_.size() - most;
+  std::uint64_t taken = 0;  // bit: place in scored_; the first 64 are enough for any k in use
+  std::size_t count = 0;
+  const auto take = [&](Class wanted, int how_many) {
+    for (std::size_t i = 0; i < scored_.size() && i < 64 && how_many > 0 && count < most; ++i) {
+      if (class_of(scored_[i].kind) != wanted || ((taken >> i) & 1u) != 0) continue;
+      taken |= std::uint64_t{1} << i;
+      ++count;
+      --how_many;
+    }
+  };
+  take(Class::attack, 1);
+  take(Class::step, 1);
+  if (incoming) take(Class::defense, 2);
+  take(Class::idle, 1);
+  if (!incoming) take(Class::defense, 1);
+  for (std::size_t i = 0; i < scored_.size() && i < 64 && count < most; ++i) {
+    if (((taken >> i) & 1u) != 0) continue;
+    taken |= std::uint64_t{1} << i;
+    ++count;
+  }
+  for (std::size_t i = 0; i < scored_.size() && i < 64; ++i) {
+    if (((taken >> i) & 1u) != 0) picked_.push_back(scored_[i]);
+  }
+}
+
+}  // namespace ringcraft

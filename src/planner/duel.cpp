@@ -1,0 +1,177 @@
+#include "planner/duel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace ringcraft {
+namespace {
+
+// splitmix64's finalizer over a running value.
+class Mixer {
+ public:
+  Mixer& add(std::uint64_t value) {
+    state_ += 0x9e3779b97f4a7c15ULL + value;
+    state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111ebULL;
+    state_ ^= state_ >> 31;
+    return *this;
+  }
+  Mixer& add(float a, float b) {
+    return add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(a)) << 32 |
+               std::bit_cast<std::uint32_t>(b));
+  }
+  Mixer& add(std::int32_t a, std::int32_t b) {
+    return add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 |
+               static_cast<std::uint32_t>(b));
+  }
+  std::uint64_t digest() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+}  // namespace
+
+DuelCounts& DuelCounts::operator+=(const DuelCounts& o) {
+  unanswered_hit += o.unanswered_hit;
+  back_turned += o.back_turned;
+  penetration += o.penetration;
+  candidates += o.candidates;
+  return *this;
+}
+
+DuelNode Duel::root(const DuelSetup& setup, const FightState& state) {
+  Node node;
+  node.now = state.now;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const FighterState& fighter = state.fighters[setup.side[i].id.at()];
+    Duelist& duelist = node.side[i];
+    duelist.flight = InFlight(*setup.side[i].tables, fighter.launch);
+    duelist.flight.launch.end = std::max(fighter.launch.end, state.now);
+    duelist.health = fighter.health;
+    duelist.balance = fighter.balance;
+    duelist.last_at_tie = fighter.last_at_tie;
+    duelist.knocked_out = fighter.launch.end >= kNever;
+  }
+  node.side[0].flight.launch.end = state.now;  // the planner acts now
+  return node;
+}
+
+int Duel::next_side(const Node& node) const {
+  const Duelist &a = node.side[0], &b = node.side[1];
+  if (a.flight.launch.end != b.flight.launch.end) {
+    return a.flight.launch.end < b.flight.launch.end ? 0 : 1;
+  }
+  if (a.last_at_tie != b.last_at_tie) return a.last_at_tie ? 0 : 1;
+  return side(0).id < side(1).id ? 0 : 1;
+}
+
+Actor Duel::actor(const Node& node) const {
+  if (node.side[0].pending.valid() || node.side[1].pending.valid()) return Actor::forced;
+  const int next = next_side(node);
+  if (node.side[static_cast<std::size_t>(next)].flight.table->get_up.valid()) return Actor::forced;
+  return next == 0 ? Actor::maximizer : Actor::minimizer;
+}
+
+std::uint64_t Duel::hash(const Node& node) const {
+  Mixer mixer;
+  mixer.add(node.now, static_cast<std::int32_t>(node.threats_met));
+  for (const Duelist& one : node.side) {
+    const Launch& launch = one.flight.launch;
+    mixer.add(launch.action.value, launch.start).add(launch.end, one.pending.value);
+    mixer.add(launch.placement.x, launch.placement.z).add(launch.placement.yaw, launch.aim);
+    mixer.add(one.balance * 4 + (one.last_at_tie ? 2 : 0) + (one.knocked_out ? 1 : 0),
+              launch.spent);
+  }
+  return mixer.digest();
+}
+
+void Duel::credit(Node& node, int who, double points, bool event) const {
+  const auto i = static_cast<std::size_t>(who);
+  node.gained +=
+      thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
+}
+
+void Duel::launch_forced(Node& node, int who, ActionId action) const {
+  Duelist& duelist = node.side[static_cast<std::size_t>(who)];
+  const MotionTables& tables = *side(who).tables;
+  const MotionLibrary& library = tables.library();
+  const float scale = tables.body().scale;
+  const Action& what = library.action(action);
+  const Launch& last = duelist.flight.launch;
+  const Launch next = what.kind == Kind::get_up
+                          ? forced_get_up(library, last, action, node.now, scale)
+                          : forced_response(library, last, action, node.now, scale);
+  duelist.flight = InFlight(tables, next);
+  duelist.pending = {};
+  if (what.kind == Kind::get_up) {
+    duelist.balance = 2;
+  } else if (what.response) {
+    const ResponseKind kind = what.response->kind;
+    duelist.balance = kind == ResponseKind::knockdown        ? 2
+                      : kind == ResponseKind::recovery_steps ? 1
+                                                             : 0;
+    if (duelist.knocked_out) duelist.flight.launch.end = kNever;
+  }
+}
+
+void Duel::launch_chosen(Node& node, const Move& move) const {
+  Duelist& self = node.side[move.side];
+  const Duelist& opponent = node.side[static_cast<std::size_t>(1 - move.side)];
+  const SideSetup& own = side(move.side);
+  const Placement placement =
+      (Frame(self.flight.root_at(node.now)) * move.next->alignment).placement();
+  const Action& action = own.tables->library().action(move.action);
+  Launch launch;
+  launch.action = move.action;
+  launch.start = node.now;
+  launch.end = node.now + action.length();
+  launch.placement = placement;
+  launch.aim = aim_at(action, placement, opponent.flight.root_at(node.now).position(),
+                      own.tables->body().scale, action.attacks() ? kMostAttackAim : kMostAim);
+  self.flight = InFlight(*own.tables, launch);
+  self.balance = 0;
+  // Launch costs count in full at the launch.
+  const double factor = setup_->factors.rest[move.side];
+  node.gained += static_cast<std::int32_t>(std::lround(factor * own.launch[move.action.at()]));
+}
+
+Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
+  Child<Node> child{node, 0};
+  Duelist& self = child.node.side[move.side];
+  Duelist& other = child.node.side[static_cast<std::size_t>(1 - move.side)];
+  const bool responds = self.pending.valid();
+  if (!responds && !other.pending.valid() &&
+      self.flight.launch.end == other.flight.launch.end) {  // a tie: the other goes first next time
+    self.last_at_tie = false;
+    other.last_at_tie = true;
+  }
+  if (move.forced) {
+    launch_forced(child.node, move.side, move.action);
+  } else {
+    launch_chosen(child.node, move);
+  }
+  child.fault = advance(child.node, move);
+  return child;
+}
+
+void Duel::moves(const Node& node, std::vector<Move>& moves) {
+  moves.clear();
+  for (std::uint8_t i = 0; i < 2; ++i) {
+    if (node.side[i].pending.valid()) {
+      moves.push_back({node.side[i].pending, i, true, nullptr});
+      return;
+    }
+  }
+  const auto next = static_cast<std::uint8_t>(next_side(node));
+  const ActionId get_up = node.side[next].flight.table->get_up;
+  if (get_up.valid()) {
+    moves.push_back({get_up, next, true, nullptr});
+    return;
+  }
+  score_candidates(node, next);
+  for (const Scored& one : picked_) moves.push_back({one.next->to, next, false, one.next});
+}
+
+}  // namespace ringcraft

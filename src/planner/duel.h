@@ -1,0 +1,155 @@
+#pragma once
+// The duel as a game: temporal expansion (the paper's section on it, design section 5).
+//
+// A node is a moment at which somebody acts; an edge is an action, and lasts until the next
+// decision or the first hit. Side 0 plans (maximizes), side 1 is its chief opponent. Other fighters
+// do what they have already begun: obstacles and threats.
+
+#include <array>
+
+#include "planner/evaluation.h"
+#include "planner/impact_memo.h"
+#include "planner/plan.h"
+#include "planner/search.h"
+
+namespace ringcraft {
+
+inline constexpr float kMostAttackAim = radians(15);  // a blow's correction at its launch
+inline constexpr float kMostAim = radians(25);        // of anything else
+inline constexpr float kBackTurned = radians(100);    // farther off the opponent shows the back
+inline constexpr Tick kLocationEvery = 6;             // ticks between samples of F_loc
+inline constexpr Tick kNever = 1'000'000'000;         // end of a knocked-out fighter's action
+
+// One fighter in the tree.
+struct Duelist {
+  InFlight flight;
+  std::int32_t health = 0;   // thousandths of a point
+  std::int32_t balance = 0;  // as FighterState::balance
+  bool last_at_tie = false;
+  bool knocked_out = false;
+  ActionId pending;  // the response that a forced node will launch; invalid otherwise
+};
+
+struct DuelNode {
+  Tick now = 0;
+  std::array<Duelist, 2> side;
+  std::int32_t gained = 0;        // f along the route so far, thousandths
+  std::uint32_t threats_met = 0;  // bit 4 * other + strike: a strike of another fighter has landed
+};
+
+struct DuelMove {
+  ActionId action;
+  std::uint8_t side = 0;
+  bool forced = false;
+  const NextAction* next = nullptr;  // null where forced
+};
+
+// A fighter outside the duel.
+struct Bystander {
+  InFlight flight;
+  FighterId id;
+  int body = 0;  // index into the memo's tables
+};
+
+// What a search needs to know of one side. Constant inside a search.
+struct SideSetup {
+  const MotionTables* tables = nullptr;
+  int body = 0;  // index into the memo's tables
+  FighterId id;
+  const Style* style = nullptr;
+  Weights weights;
+  std::vector<std::int32_t> launch;  // F_control of each action, thousandths
+  std::vector<std::vector<std::int32_t>>
+      clean_damage;  // of each action's strikes on the other side
+};
+
+struct DuelSetup {
+  std::array<SideSetup, 2> side;
+  LeafFactors factors;
+  PlanSettings settings;
+  ImpactMemo* memo = nullptr;
+  std::vector<Bystander> others;
+};
+
+// Something that happened on the way; written down when a line is replayed.
+struct DuelEvent {
+  Tick tick = 0;
+  int attacker = 0;  // side; 2 + index of a bystander
+  int victim = 0;
+  ActionId attack;
+  std::size_t strike = 0;
+  enum class Kind : std::uint8_t { hit, block, evaded } kind = Kind::hit;
+  LandedBlow blow;
+  ImpactAnswer answer;
+};
+
+struct DuelCounts {
+  std::uint64_t unanswered_hit = 0, back_turned = 0, penetration = 0, candidates = 0;
+  DuelCounts& operator+=(const DuelCounts& o);
+};
+
+class Duel {
+ public:
+  using Node = DuelNode;
+  using Move = DuelMove;
+
+  Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(horizon) {}
+
+  // The root of the tree in which `planner` decides at state.now.
+  static Node root(const DuelSetup& setup, const FightState& state);
+
+  bool terminal(const Node& node) const { return node.now >= horizon_; }
+  Actor actor(const Node& node) const;
+  std::int32_t value(const Node& node) const { return node.gained; }
+  std::int32_t gained(const Node& node) const { return node.gained; }
+  std::uint64_t hash(const Node& node) const;
+  void moves(const Node& node, std::vector<Move>& moves);
+  Child<Node> apply(const Node& node, const Move& move);
+  std::uint32_t key(const Move& move) const {
+    return static_cast<std::uint32_t>(move.action.value) * 2 + move.side;
+  }
+
+  const DuelCounts& counts() const { return counts_; }
+  void clear_counts() { counts_ = {}; }
+  void record_into(std::vector<DuelEvent>* events) { events_ = events; }
+  Tick horizon() const { return horizon_; }
+
+  // The side whose action ends first; at equal ends the one that was second at the last tie.
+  int next_side(const Node& node) const;
+
+ private:
+  struct Window;
+  struct Met;
+  struct Aspect;  // what candidates are weighed against; candidates.cpp
+
+  const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
+  void credit(Node& node, int side, double points, bool event) const;
+  void launch_forced(Node& node, int side, ActionId action) const;
+  void launch_chosen(Node& node, const Move& move) const;
+
+  // From node.now to the next decision, hit or horizon; the fault is what the mover is blamed for.
+  std::int32_t advance(Node& node, const Move& move);
+  std::vector<Window> windows(const Node& node, Tick end) const;
+  Tick meet(Node& node, Tick end, const Move& move, std::int32_t& fault);
+  void land(Node& node, const Met& met, const Move& move, std::int32_t& fault);
+  void judge_evasions(Node& node, Tick from, Tick to);
+  void add_location(Node& node, Tick from, Tick to) const;
+  std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to);
+
+  const DuelSetup* setup_;
+  Tick horizon_;
+  DuelCounts counts_;
+  std::vector<DuelEvent>* events_ = nullptr;
+  struct Scored {
+    std::int32_t score;
+    Kind kind;
+    const NextAction* next;
+  };
+  std::vector<Scored> scored_, picked_;  // of moves()
+
+  void score_candidates(const Node& node, int side);
+  void pick_candidates(std::size_t most, bool incoming);
+};
+static_assert(Game<Duel>);
+
+}  // namespace ringcraft

@@ -1,0 +1,77 @@
+#include "planner/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ringcraft {
+namespace {
+
+constexpr double kFarthest = -3.0;        // g(d) never falls below
+constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
+constexpr double kOverlapCost = 10.0;     // points/s per metre
+constexpr double kRopesNear = 0.8;        // m
+constexpr double kBoredDistance = 0.9;    // m: boredom brings d* down to here
+
+}  // namespace
+
+std::int32_t thousandths(double points) {
+  return static_cast<std::int32_t>(std::lround(std::clamp(points, -1e5, 1e5) * 1000));
+}
+
+Weights weights_at(const Style& style, double quiet) {
+  Weights w;
+  const double bored = style.boredom_rate * std::max(0.0, quiet - style.boredom_after_s);
+  w.location = std::max(style.location_weight, std::min(1.0, bored));
+  w.sigma = style.distance_sigma_m;
+  w.distance = std::min(style.distance_m, std::max(kBoredDistance, style.distance_m - bored));
+  w.facing = style.facing_weight;
+  w.ropes = style.ropes_weight;
+  w.fight = style.fight_weight;
+  w.defense = style.defense_share;
+  w.knockdown = style.knockdown_bonus;
+  w.caution = 1 + (style.caution - 1) * std::exp(-2 * bored);
+  w.control = style.control_weight;
+  w.rarity = style.rarity_weight;
+  w.duration = style.duration_weight;
+  w.attack_bonus = style.attack_bonus + 10 * bored;
+  w.leaf = style.leaf;
+  return w;
+}
+
+double location_rate(const Weights& weights, double distance, double cosine, double to_ropes) {
+  double in_reach = std::max(kFarthest, -std::abs(distance - weights.distance) / weights.sigma);
+  in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
+  const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
+  return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
+}
+
+double launch_points(const Weights& weights, const Style& style, const Action& action, double use) {
+  const double cost = weights.rarity * use + weights.duration * seconds(action.length());
+  double points = -weights.control * cost;
+  if (action.attacks()) points += weights.attack_bonus;
+  const auto liked = style.liked.find(action.name);
+  if (liked != style.liked.end()) points += liked->second;
+  return points;
+}
+
+double hit_points(const Weights& weights, const Style& style, StrikeKind kind, std::int32_t damage,
+                  bool knockdown) {
+  const auto found = style.strikes.find(std::string(name_of(kind)));
+  const double liked = found == style.strikes.end() ? 1.0 : found->second;
+  return weights.fight * liked * damage / 1000.0 + (knockdown ? weights.knockdown : 0.0);
+}
+
+double defense_points(const Weights& weights, std::int32_t prevented) {
+  return weights.defense * std::max(0, prevented) / 1000.0;
+}
+
+LeafFactors leaf_factors(const Weights& planner) {
+  LeafFactors factors;
+  if (planner.leaf == LeafValue::weighted) {
+    factors.events[1] = -planner.caution;
+    factors.rest[1] = 0;
+  }
+  return factors;
+}
+
+}  // namespace ringcraft

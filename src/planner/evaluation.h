@@ -1,0 +1,51 @@
+#pragma once
+// The evaluation: S = w_l F_loc + w_f F_fight + w_c F_control (the paper's objective function), in
+// points, summed along a route in integer thousandths. docs/planning.md sets code beside equation.
+
+#include "motion/action.h"
+#include "physics/body.h"
+#include "planner/style.h"
+
+namespace ringcraft {
+
+// Thousandths of a point, rounded to nearest.
+std::int32_t thousandths(double points);
+
+// A style at one moment of the fight: boredom has been worked in. Constant inside a search.
+struct Weights {
+  double location = 1, sigma = 0.5, distance = 0.95;  // w_l points/s, sigma m, d* m
+  double facing = 1, ropes = 1;                       // points/s
+  double fight = 1, defense = 0.3, knockdown = 6;     // w_f, w_d, points
+  double caution = 1.5;                               // kappa_f
+  double control = 1, rarity = 4, duration = 0.5, attack_bonus = 0;
+  LeafValue leaf = LeafValue::weighted;
+};
+
+// `quiet`: seconds since the last contact. Beyond boredom_after_s a fighter comes closer, dares
+// more and likes attacks better.
+Weights weights_at(const Style& style, double quiet);
+
+// F_loc as a rate, points/s: `distance` of the roots (m), `cosine` of the opponent's bearing off
+// the own facing, `to_ropes` from the own root to the nearest ropes (m).
+double location_rate(const Weights& weights, double distance, double cosine, double to_ropes);
+
+// F_control of a launch, points (mostly a cost): `use` is phi, the action's share of recent
+// launches.
+double launch_points(const Weights& weights, const Style& style, const Action& action, double use);
+
+// F_fight of a landed blow, points; `damage` in thousandths.
+double hit_points(const Weights& weights, const Style& style, StrikeKind kind, std::int32_t damage,
+                  bool knockdown);
+
+// F_fight of a strike that was evaded or blocked: by the damage that was prevented, thousandths.
+double defense_points(const Weights& weights, std::int32_t prevented);
+
+// What a point of each side is worth to the planner: f = S_p - kappa_f (Hit_q + Def_q), or the
+// paper's S_A - S_B. Index 0 is the planner's side.
+struct LeafFactors {
+  double events[2] = {1, -1};  // hits and defenses
+  double rest[2] = {1, -1};    // location and control
+};
+LeafFactors leaf_factors(const Weights& planner);
+
+}  // namespace ringcraft

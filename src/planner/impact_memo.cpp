@@ -1,0 +1,254 @@
+#include "planner/impact_memo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/response.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr int kYaws = 12;
+
+int turn_step(float yaw, int steps) {
+  const float turn = 2 * kPi / static_cast<float>(steps);
+  const int step = static_cast<int>(std::lround(wrapped_angle(yaw) / turn));
+  return (step % steps + steps) % steps;
+}
+float turn_of(int step, int steps) {
+  return wrapped_angle(static_cast<float>(step) * 2 * kPi / static_cast<float>(steps));
+}
+
+int elevation_step(Vec3 direction) {
+  const float sine = std::clamp(direction.y / std::max(1e-6f, glm::length(direction)), -1.0f, 1.0f);
+  return static_cast<int>(std::clamp<long>(std::lround(std::asin(sine) / radians(45)), -1, 1)) + 1;
+}
+
+Vec3 direction_of(int azimuth, int elevation) {
+  const float up = static_cast<float>(elevation - 1) * radians(45);
+  return yaw_rotation(turn_of(azimuth, kMemoAzimuths)) * Vec3(0, std::sin(up), std::cos(up));
+}
+
+int step_of(float value, float step, int most) {
+  return static_cast<int>(std::clamp<long>(std::lround(value / step), 0, most));
+}
+
+Capsule part_capsule(const MotionTables& tables, ActionId action, Tick age, Part part) {
+  return tables.at(action).capsules_at(age)[index(part)];
+}
+
+// Appends the low `bits` bits of a field.
+class Packer {
+ public:
+  Packer& add(std::int64_t value, int bits) {
+    const auto field = static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << bits) - 1);
+    if (used_ + bits > 64) word_ = &b_, used_ = 0;
+    *word_ |= field << used_;
+    used_ += bits;
+    return *this;
+  }
+  std::uint64_t a() const { return a_; }
+  std::uint64_t b() const { return b_; }
+
+ private:
+  std::uint64_t a_ = 0, b_ = 0;
+  std::uint64_t* word_ = &a_;
+  int used_ = 0;
+};
+
+}  // namespace
+
+bool interrupts(bool blocked, const ImpactOutcome& outcome) {
+  return !blocked || outcome.response != ResponseKind::absorb;
+}
+
+std::size_t ImpactMemo::KeyHash::operator()(const Key& key) const {
+  std::uint64_t h = key.a * 0x9e3779b97f4a7c15ULL ^ (key.b + 0x7f4a7c15ULL) * 0xc2b2ae3d27d4eb4fULL;
+  h ^= h >> 29;
+  h *= 0xbf58476d1ce4e5b9ULL;
+  return static_cast<std::size_t>(h ^ (h >> 32));
+}
+
+ImpactMemo::Key ImpactMemo::BlowSteps::key() const {
+  Packer p;
+  p.add(attacker, 5).add(attack.value, 13).add(attack_age, 12).add(static_cast<int>(striker), 5);
+  p.add(victim, 5).add(static_cast<int>(kind), 3).add(azimuth, 5).add(elevation, 3).add(yaw, 5);
+  p.add(blocked ? 1 : 0, 1);
+  p.add(struck_action.value, 13).add(struck_age, 12).add(static_cast<int>(struck), 5).add(speed, 8);
+  return {p.a(), p.b()};
+}
+
+ImpactMemo::Key ImpactMemo::ImpulseSteps::key() const {
+  Packer p;
+  p.add(victim, 5).add(struck_action.value, 13).add(struck_age, 12);
+  p.add(static_cast<int>(struck), 5).add(blocked ? 1 : 0, 1).add(azimuth, 5).add(elevation, 3);
+  p.add(impulse, 10);
+  return {p.a(), p.b()};
+}
+
+ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies) : bodies_(std::move(bodies)) {}
+
+ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
+  const Vec3 line = -blow.contact.normal;
+  const float speed = std::max(0.0f, glm::dot(blow.contact.velocity, line));
+  BlowSteps steps{};
+  steps.attacker = blow.attacker;
+  steps.victim = blow.victim;
+  steps.attack = blow.attack;
+  steps.struck_action = blow.struck_action;
+  steps.attack_age = std::max(0, blow.attack_age) / kMemoTicks;
+  steps.struck_age = std::max(0, blow.struck_age) / kMemoTicks;
+  steps.kind = blow.kind;
+  steps.striker = blow.contact.striker;
+  steps.struck = blow.contact.struck;
+  steps.blocked = blow.contact.blocked;
+  steps.azimuth = turn_step(yaw_of(line), kMemoAzimuths);
+  steps.elevation = elevation_step(line);
+  steps.yaw = turn_step(blow.attacker_yaw, kYaws);
+  steps.speed = step_of(speed, kMemoSpeed, 255);
+  return steps;
+}
+
+// The impulse of the quantised blow: both bodies posed anew, the striker's part put before the
+// struck one.
+Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
+  const MotionTables& attacker = *bodies_[static_cast<std::size_t>(steps.attacker)];
+  const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
+  const Tick attack_age = steps.attack_age * kMemoTicks, struck_age = steps.struck_age * kMemoTicks;
+  const Vec3 line = direction_of(steps.azimuth, steps.elevation);
+
+  const Capsule struck = part_capsule(victim, steps.struck_action, struck_age, steps.struck);
+  Contact contact;
+  contact.striker = steps.striker;
+  contact.struck = steps.struck;
+  contact.blocked = steps.blocked;
+  contact.normal = -line;
+  contact.point = (struck.a + struck.b) * 0.5f + contact.normal * struck.radius;
+  contact.velocity = line * (static_cast<float>(steps.speed) * kMemoSpeed);
+
+  const Frame turned(Placement{0, 0, turn_of(steps.yaw, kYaws)});
+  const Capsule own = part_capsule(attacker, steps.attack, attack_age, steps.striker);
+  const Vec3 center = turned.to_outer((own.a + own.b) * 0.5f);
+  Pose pose = placed(attacker.at(steps.attack).pose_at(attack_age), turned.placement());
+  pose.hips += contact.point + contact.normal * own.radius - center;
+
+  return blow_of(attacker.body(), pose, victim.body(),
+                 victim.at(steps.struck_action).pose_at(struck_age), contact, steps.kind)
+      .impulse;
+}
+
+ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impulse) const {
+  ImpulseSteps steps{};
+  steps.victim = blow.victim;
+  steps.struck_action = blow.struck_action;
+  steps.struck_age = blow.struck_age;
+  steps.struck = blow.struck;
+  steps.blocked = blow.blocked;
+  steps.azimuth = turn_step(yaw_of(impulse), kMemoAzimuths);
+  steps.elevation = elevation_step(impulse);
+  steps.impulse = step_of(glm::length(impulse), kMemoImpulse, 1000);
+  return steps;
+}
+
+ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
+  const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
+  const ActionTable& action = victim.at(steps.struck_action);
+  const Tick age = action.clamped(steps.struck_age * kMemoTicks);
+  const Vec3 line = direction_of(steps.azimuth, steps.elevation);
+  const Capsule struck = action.capsules_at(age)[index(steps.struck)];
+
+  ImpactAnswer answer;
+  answer.impulse = static_cast<float>(steps.impulse) * kMemoImpulse;
+  ImpactInput input;
+  input.pose = action.pose_at(age);
+  input.pose_before = action.pose_at(age - 1);
+  std::array<Pose, kImpulseStepTicks + 1> continued;
+  for (Tick t = 0; t <= kImpulseStepTicks; ++t) {
+    continued[static_cast<std::size_t>(t)] = action.pose_at(age + t);
+  }
+  input.continued = continued;
+  input.blow.part = steps.struck;
+  input.blow.point = (struck.a + struck.b) * 0.5f - line * struck.radius;
+  input.blow.impulse = line * answer.impulse;
+  input.blow.blocked = steps.blocked;
+  input.contacts = action.action->clip.contacts_at(age);
+  answer.outcome = impulse_step(victim.body(), input);
+  answer.response = choose_response(victim.library(), answer.outcome, action.root_at(age).yaw);
+  answer.damage = damage_of(input.blow, answer.outcome);
+  return answer;
+}
+
+template <class Value, class Compute>
+const Value& ImpactMemo::looked_up(Shards<Value>& shards, const Key& key, const Compute& compute) {
+  Shard<Value>& shard = shards[(KeyHash()(key) >> 8) % shards.size()];
+  {
+    const std::lock_guard lock(shard.mutex);
+    ++shard.lookups;
+    const auto found = shard.entries.find(key);
+    if (found != shard.entries.end()) return found->second;
+  }
+  const Value value = compute();  // outside the lock: it takes long, and twice gives the same
+  const std::lock_guard lock(shard.mutex);
+  return shard.entries.try_emplace(key, value).first->second;
+}
+
+const ImpactAnswer& ImpactMemo::answer(const LandedBlow& blow) {
+  const BlowSteps blow_steps = steps_of(blow);
+  const Vec3 impulse =
+      looked_up(impulses_, blow_steps.key(), [&] { return impulse_of(blow_steps); });
+  const ImpulseSteps steps = steps_of(blow_steps, impulse);
+  return looked_up(answers_, steps.key(), [&] { return answer_of(steps); });
+}
+
+ImpactAnswer ImpactMemo::recomputed(const LandedBlow& blow) const {
+  const BlowSteps steps = steps_of(blow);
+  return answer_of(steps_of(steps, impulse_of(steps)));
+}
+
+std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t strike,
+                                      int victim) const {
+  const MotionTables& tables = *bodies_[static_cast<std::size_t>(attacker)];
+  const ActionTable& action = tables.at(attack);
+  const StrikeTable& blow = action.strikes[strike];
+  float speed = 0;
+  Tick fastest = blow.strike.active_begin;
+  for (Tick t = std::max<Tick>(1, blow.strike.active_begin); t < blow.strike.active_end; ++t) {
+    const Capsule& now = action.capsules_at(t)[index(blow.main)];
+    const Capsule& before = action.capsules_at(t - 1)[index(blow.main)];
+    const float gone = glm::distance(now.b, before.b) / kTickSeconds;
+    if (gone > speed) speed = gone, fastest = t;
+  }
+  // The struck body: the start of the first idle of the library (else of the attack itself).
+  const MotionLibrary& library = tables.library();
+  ActionId standing = attack;
+  for (std::size_t i = library.actions().size(); i-- > 0;) {
+    if (library.actions()[i].kind == Kind::idle) standing = ActionId(i);
+  }
+  LandedBlow landed;
+  landed.attacker = attacker;
+  landed.victim = victim;
+  landed.attack = attack;
+  landed.struck_action = standing;
+  landed.attack_age = fastest;
+  landed.kind = blow.strike.kind;
+  landed.contact.striker = blow.main;
+  landed.contact.struck = blow.strike.zone == TargetZone::head   ? Part::head
+                          : blow.strike.zone == TargetZone::body ? Part::abdomen
+                                                                 : Part::left_thigh;
+  landed.contact.normal = kForward;
+  landed.contact.velocity = -kForward * speed;
+  landed.attacker_yaw = kPi;
+  return recomputed(landed).damage;
+}
+
+ImpactMemo::Counts ImpactMemo::counts() const {
+  Counts counts;
+  for (const Shard<ImpactAnswer>& shard : answers_) {
+    const std::lock_guard lock(shard.mutex);
+    counts.lookups += shard.lookups;
+    counts.entries += shard.entries.size();
+  }
+  return counts;
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,113 @@
+#pragma once
+// The impact memo: impulse steps by quantised input, shared by a fight. The outcome is computed
+// from the quantised values, so a memo never changes a result.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <vector>
+
+#include "physics/impact.h"
+#include "planner/motion_tables.h"
+
+namespace ringcraft {
+
+// Steps of the quantisation.
+inline constexpr Tick kMemoTicks = 4;        // of the victim's and the attacker's action
+inline constexpr int kMemoAzimuths = 12;     // directions of the blow around the victim: 30 degrees
+inline constexpr int kMemoElevations = 3;    // from below, level, from above: 45 degrees
+inline constexpr float kMemoSpeed = 0.5f;    // m/s
+inline constexpr float kMemoImpulse = 2.0f;  // N s
+
+// A landed blow as the tree meets it. Bodies are indices into the memo's tables.
+struct LandedBlow {
+  int attacker = 0, victim = 0;
+  ActionId attack, struck_action;
+  Tick attack_age = 0, struck_age = 0;
+  StrikeKind kind = StrikeKind::straight;
+  Contact contact;         // in the victim's action space
+  float attacker_yaw = 0;  // of the attacker's action space, seen from the victim's, rad
+};
+
+// What physics answers.
+struct ImpactAnswer {
+  ImpactOutcome outcome;  // its direction is a yaw in the victim's action space
+  ActionId response;
+  std::int32_t damage = 0;  // thousandths of a point
+  float impulse = 0;        // N s
+  bool operator==(const ImpactAnswer&) const = default;
+};
+
+// Whether a blow cuts the struck fighter's action. A guard that holds without a step goes on.
+bool interrupts(bool blocked, const ImpactOutcome& outcome);
+
+class ImpactMemo {
+ public:
+  explicit ImpactMemo(std::vector<const MotionTables*> bodies);
+
+  // The same answer whether it was stored or not, on any number of threads.
+  const ImpactAnswer& answer(const LandedBlow& blow);
+  // The same without the memo.
+  ImpactAnswer recomputed(const LandedBlow& blow) const;
+
+  // Damage of a strike that meets a standing, unguarded body at its best speed, thousandths.
+  std::int32_t clean_damage(int attacker, ActionId attack, std::size_t strike, int victim) const;
+
+  struct Counts {
+    std::uint64_t lookups = 0, entries = 0;  // neither depends on the number of threads
+  };
+  Counts counts() const;
+
+ private:
+  struct Key {
+    std::uint64_t a = 0, b = 0;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  template <class Value>
+  struct Shard {
+    mutable std::mutex mutex;
+    std::unordered_map<Key, Value, KeyHash> entries;
+    std::uint64_t lookups = 0;
+  };
+  template <class Value>
+  using Shards = std::array<Shard<Value>, 16>;
+
+  // The quantised blow and the quantised impulse, as numbers of steps.
+  struct BlowSteps {
+    int attacker, victim;
+    ActionId attack, struck_action;
+    Tick attack_age, struck_age;
+    StrikeKind kind;
+    Part striker, struck;
+    bool blocked;
+    int azimuth, elevation, yaw, speed;
+    Key key() const;
+  };
+  struct ImpulseSteps {
+    int victim;
+    ActionId struck_action;
+    Tick struck_age;
+    Part struck;
+    bool blocked;
+    int azimuth, elevation, impulse;
+    Key key() const;
+  };
+
+  BlowSteps steps_of(const LandedBlow& blow) const;
+  Vec3 impulse_of(const BlowSteps& steps) const;
+  ImpulseSteps steps_of(const BlowSteps& blow, Vec3 impulse) const;
+  ImpactAnswer answer_of(const ImpulseSteps& steps) const;
+  template <class Value, class Compute>
+  const Value& looked_up(Shards<Value>& shards, const Key& key, const Compute& compute);
+
+  std::vector<const MotionTables*> bodies_;
+  Shards<Vec3> impulses_;
+  Shards<ImpactAnswer> answers_;
+};
+
+}  // namespace ringcraft

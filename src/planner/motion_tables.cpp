@@ -1,0 +1,229 @@
+#include "planner/motion_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/penetration.h"
+#include "physics/response.h"
+
+namespace ringcraft {
+namespace {
+
+float ground_distance(Vec3 p) {
+  return std::hypot(p.x, p.z);
+}
+
+Sphere bound_of(const BodyCapsules& capsules) {
+  Vec3 low = capsules[0].a, high = low;
+  for (const Capsule& c : capsules) {
+    low = glm::min(low, glm::min(c.a, c.b) - c.radius);
+    high = glm::max(high, glm::max(c.a, c.b) + c.radius);
+  }
+  Sphere sphere;
+  sphere.center = (low + high) * 0.5f;
+  for (const Capsule& c : capsules) {
+    const float far =
+        std::max(glm::distance(sphere.center, c.a), glm::distance(sphere.center, c.b));
+    sphere.radius = std::max(sphere.radius, far + c.radius);
+  }
+  return sphere;
+}
+
+StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
+  StrikeTable result;
+  result.strike = strike;
+  result.parts = striking_parts(strike);
+  result.main = part_of(strike.joint).value_or(Part::right_hand);
+  float farthest = -1;
+  for (Tick tick = strike.active_begin; tick < strike.active_end; ++tick) {
+    const BodyCapsules& capsules = table.capsules_at(tick);
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      if (((result.parts >> i) & 1u) == 0) continue;
+      const Capsule& c = capsules[i];
+      result.reach =
+          std::max(result.reach, std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius);
+    }
+    const Capsule& main = capsules[index(result.main)];
+    const Vec3 tip = main.a.z > main.b.z ? main.a : main.b;
+    if (tip.z > farthest) {
+      farthest = tip.z;
+      result.landing = tip + Vec3(0, 0, main.radius);
+      result.landing_tick = tick;
+    }
+  }
+  return result;
+}
+
+ActionTable action_table(const Action& action, const BodyModel& body) {
+  ActionTable table;
+  table.action = &action;
+  table.length = action.length();
+  for (std::size_t i = 0; i < action.clip.frames.size(); ++i) {
+    const Pose pose = scaled(action.clip.frames[i], body.scale);
+    table.pose.push_back(pose);
+    table.root.push_back(scaled(action.clip.root[i], body.scale));
+    table.capsules.push_back(capsules(body, world_pose(body.skeleton, pose)));
+    table.bound.push_back(bound_of(table.capsules.back()));
+    for (const Capsule& c : table.capsules.back()) {
+      const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
+      table.extent = std::max(table.extent, far);
+    }
+  }
+  table.end = Frame(table.root.back());
+  for (const Strike& strike : action.strikes) table.strikes.push_back(strike_table(strike, table));
+  return table;
+}
+
+// The strike's parts at `tick`, seen from the target's action space.
+void put_striker(const InFlight& attacker, std::uint32_t parts, const InFlight& target, Tick tick,
+                 BodyCapsules& out) {
+  const Frame seen = relative(target.frame_at(tick), attacker.frame_at(tick));
+  const BodyCapsules& own = attacker.table->capsules_at(attacker.age(tick));
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (((parts >> i) & 1u) == 0) continue;
+    out[i] = {seen.to_outer(own[i].a), seen.to_outer(own[i].b), own[i].radius};
+  }
+}
+
+bool touches(const BodyCapsules& striker, std::uint32_t parts, const Sphere& bound) {
+  constexpr float kTickTravel = 0.15f;  // m: farther than any blow goes in a tick
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (((parts >> i) & 1u) == 0) continue;
+    const Capsule& c = striker[i];
+    const float reach = bound.radius + c.radius + 0.5f * glm::distance(c.a, c.b) + kTickTravel;
+    if (glm::distance2((c.a + c.b) * 0.5f, bound.center) < reach * reach) return true;
+  }
+  return false;
+}
+
+std::uint32_t intended(const InFlight& who, Tick tick) {
+  std::uint32_t parts = 0;
+  for (const StrikeTable& strike : who.table->strikes) {
+    const Tick age = who.age(tick);
+    if (age >= strike.strike.active_begin - 1 && age < strike.strike.active_end + kContactRest) {
+      parts |= strike.parts;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+Frame::Frame(const Placement& placement)
+    : x(placement.x),
+      z(placement.z),
+      yaw(placement.yaw),
+      sine(std::sin(placement.yaw)),
+      cosine(std::cos(placement.yaw)) {}
+
+Frame relative(const Frame& outer, const Frame& inner) {
+  Frame result;
+  const Vec3 at = outer.to_inner({inner.x, 0, inner.z});
+  result.x = at.x;
+  result.z = at.z;
+  result.yaw = inner.yaw - outer.yaw;
+  result.sine = inner.sine * outer.cosine - inner.cosine * outer.sine;
+  result.cosine = inner.cosine * outer.cosine + inner.sine * outer.sine;
+  return result;
+}
+
+Frame operator*(const Frame& outer, const Frame& inner) {
+  Frame result;
+  const Vec3 at = outer.to_outer({inner.x, 0, inner.z});
+  result.x = at.x;
+  result.z = at.z;
+  result.yaw = outer.yaw + inner.yaw;
+  result.sine = outer.sine * inner.cosine + outer.cosine * inner.sine;
+  result.cosine = outer.cosine * inner.cosine - outer.sine * inner.sine;
+  return result;
+}
+
+const NextAction* ActionTable::find_next(ActionId to) const {
+  for (const NextAction& one : next) {
+    if (one.to == to) return &one;
+  }
+  return nullptr;
+}
+
+MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
+    : library_(library), body_(body) {
+  for (const Action& action : library.actions()) actions_.push_back(action_table(action, body_));
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    for (const Edge& edge : library.machine().edges(ActionId(i))) {
+      const Kind kind = library.action(edge.to).kind;
+      if (kind == Kind::response || kind == Kind::get_up) continue;
+      actions_[i].next.push_back({edge.to, Frame(scaled(edge.alignment.placement, body_.scale))});
+    }
+    ActionTable& table = actions_[i];
+    if (table.action->ends_lying != Lying::none && !library.get_ups().empty()) {
+      table.get_up = choose_get_up(library, body_.skeleton, table.pose.back());
+    }
+    std::sort(actions_[i].next.begin(), actions_[i].next.end(),
+              [](const NextAction& a, const NextAction& b) { return a.to < b.to; });
+  }
+}
+
+InFlight::InFlight(const MotionTables& tables, const Launch& of)
+    : table(&tables.at(of.action)), launch(of) {
+  Placement turned = of.placement;
+  turned.yaw += of.aim;
+  aimed = Frame(turned);
+}
+
+Frame InFlight::frame_at(Tick tick) const {
+  if (launch.aim == 0) return aimed;
+  const float share = aim_share(*table->action, age(tick));
+  if (share >= 1) return aimed;
+  Placement turned = launch.placement;
+  turned.yaw += launch.aim * share;
+  return Frame(turned);
+}
+
+Placement InFlight::root_at(Tick tick) const {
+  const Frame frame = frame_at(tick);
+  const Placement& root = table->root_at(age(tick));
+  const Vec3 at = frame.to_outer(root.position());
+  return {at.x, at.z, frame.yaw + root.yaw};
+}
+
+bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlight& target) {
+  const float reach = strike.reach + target.table->extent;
+  const float dx = attacker.aimed.x - target.aimed.x, dz = attacker.aimed.z - target.aimed.z;
+  return dx * dx + dz * dz < reach * reach;
+}
+
+std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& strike,
+                                  const InFlight& target, Tick tick) {
+  SweptBody striker;
+  put_striker(attacker, strike.parts, target, tick, striker.after);
+  const Tick age = target.age(tick);
+  if (!touches(striker.after, strike.parts, target.table->bound_at(age))) return std::nullopt;
+  put_striker(attacker, strike.parts, target, tick - 1, striker.before);
+  SweptBody struck;
+  struck.before = target.table->capsules_at(age - 1);
+  struck.after = target.table->capsules_at(age);
+  return strike_contact(striker, strike.strike, struck);
+}
+
+BodyCapsules moved(const Frame& frame, const BodyCapsules& capsules) {
+  BodyCapsules result;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Capsule& c = capsules[i];
+    result[i] = {frame.to_outer(c.a), frame.to_outer(c.b), c.radius};
+  }
+  return result;
+}
+
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick) {
+  const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
+  const Sphere& bound_a = a.table->bound_at(a.age(tick));
+  const Sphere& bound_b = b.table->bound_at(b.age(tick));
+  const float reach = bound_a.radius + bound_b.radius;
+  if (glm::distance2(seen.to_outer(bound_a.center), bound_b.center) >= reach * reach) return 0;
+  const BodyCapsules capsules_a = moved(seen, a.table->capsules_at(a.age(tick)));
+  return deepest_penetration(capsules_a, b.table->capsules_at(b.age(tick)), intended(a, tick),
+                             intended(b, tick))
+      .depth;
+}
+
+}  // namespace ringcraft

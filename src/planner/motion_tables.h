@@ -1,0 +1,122 @@
+#pragma once
+// Motion tables: what the tree asks of an action, worked out once per library and body, so that a
+// contact or penetration test costs microseconds and no pose is built inside a search.
+
+#include <vector>
+
+#include "fight/state.h"
+#include "physics/contact.h"
+
+namespace ringcraft {
+
+// A placement with its sine and cosine at hand.
+struct Frame {
+  float x = 0, z = 0, yaw = 0;
+  float sine = 0, cosine = 1;
+
+  Frame() = default;
+  explicit Frame(const Placement& placement);
+  Placement placement() const { return {x, z, yaw}; }
+  Vec3 to_outer(Vec3 p) const {
+    return {x + cosine * p.x + sine * p.z, p.y, z - sine * p.x + cosine * p.z};
+  }
+  Vec3 to_inner(Vec3 p) const {
+    const float dx = p.x - x, dz = p.z - z;
+    return {cosine * dx - sine * dz, p.y, sine * dx + cosine * dz};
+  }
+};
+
+// `inner`, given in the space in which `outer` is given, as seen from `outer`.
+Frame relative(const Frame& outer, const Frame& inner);
+
+struct Sphere {
+  Vec3 center{};
+  float radius = 0;
+};
+
+// One blow of an attack, in action space.
+struct StrikeTable {
+  Strike strike;
+  std::uint32_t parts = 0;  // that can land, bit index(part)
+  Part main = Part::left_hand;
+  Vec3 landing{};  // the main part's outer end where it reaches farthest while active, m
+  Tick landing_tick = 0;
+  float reach = 0;  // largest distance of any of the parts from the origin on the ground, m
+};
+
+Frame operator*(const Frame& outer, const Frame& inner);
+
+// An action that can follow, and how it is placed.
+struct NextAction {
+  ActionId to;
+  Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
+};
+
+struct ActionTable {
+  const Action* action = nullptr;
+  Tick length = 0;
+  std::vector<BodyCapsules> capsules;  // action space, one a tick
+  std::vector<Placement> root;         // scaled to the body
+  std::vector<Sphere> bound;           // of the capsules
+  std::vector<Pose> pose;              // scaled to the body
+  std::vector<StrikeTable> strikes;
+  float extent = 0;              // largest distance of the body from the origin on the ground, m
+  Frame end;                     // root[length]
+  ActionId get_up;               // of a fall: what follows it; invalid for anything else
+  std::vector<NextAction> next;  // what a fighter may choose after it, by index
+
+  Tick clamped(Tick age) const { return age < 0 ? 0 : age > length ? length : age; }
+  const BodyCapsules& capsules_at(Tick age) const { return capsules[at(age)]; }
+  const Placement& root_at(Tick age) const { return root[at(age)]; }
+  const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
+  const Pose& pose_at(Tick age) const { return pose[at(age)]; }
+  const NextAction* find_next(ActionId to) const;
+
+ private:
+  std::size_t at(Tick age) const { return static_cast<std::size_t>(clamped(age)); }
+};
+
+class MotionTables {
+ public:
+  MotionTables(const MotionLibrary& library, const BodyModel& body);
+
+  const MotionLibrary& library() const { return library_; }
+  const BodyModel& body() const { return body_; }
+  const ActionTable& at(ActionId action) const { return actions_[action.at()]; }
+
+ private:
+  const MotionLibrary& library_;
+  BodyModel body_;
+  std::vector<ActionTable> actions_;
+};
+
+// A launch resolved against its tables: where its action space and its root lie at a tick.
+struct InFlight {
+  const ActionTable* table = nullptr;
+  Launch launch;
+  Frame aimed;  // action space once the aim is in
+
+  InFlight() = default;
+  InFlight(const MotionTables& tables, const Launch& launch);
+  Tick age(Tick tick) const { return tick - launch.start; }
+  Frame frame_at(Tick tick) const;
+  Placement root_at(Tick tick) const;
+};
+
+// The first contact of a strike over the tick that ends at `tick`, in the action space of the
+// target, or nothing. The strike must be active at `tick`.
+std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& strike,
+                                  const InFlight& target, Tick tick);
+
+// Whether a strike can touch the target at all while active: false costs next to nothing.
+bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlight& target);
+
+// Deepest penetration at `tick`, m. Parts of a strike that is active, or was within the last
+// kContactRest ticks, are left out: its contact is intended.
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick);
+inline constexpr Tick kContactRest = 24;
+
+// Capsules as seen from outside the frame.
+BodyCapsules moved(const Frame& frame, const BodyCapsules& capsules);
+
+}  // namespace ringcraft

@@ -1,0 +1,361 @@
+#include "planner/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
+#include "planner/duel.h"
+#include "planner/root_search.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr std::size_t kMostLines = 6;
+constexpr double kMarginTemperatures =
+    4;                               // moves farther than this below the best are never chosen
+constexpr double kRarityKept = 0.9;  // phi <- 0.9 phi + 0.1 [launched]
+constexpr Tick kHorizonStep = 30;    // 0.25 s: grid of shorter horizons under a node limit
+constexpr Tick kFirstHorizon = 90;   // 0.75 s
+constexpr double kFirstGrowth = 8;   // of the nodes per half second, before it is measured
+constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
+
+bool same_build(const BodySpec& a, const BodySpec& b) {
+  return a.height == b.height && a.mass == b.mass && a.sex == b.sex && a.toughness == b.toughness;
+}
+
+using Roots = std::vector<RootMove<Duel>>;
+
+struct Searched {
+  Roots roots;
+  Tick horizon = 0;  // ticks looked ahead
+  DuelCounts root_counts;
+  SearchCounts counts;  // of the horizon that was finished
+};
+
+}  // namespace
+
+struct Planner::Inside {
+  const MotionLibrary& library;
+  std::vector<Contender> contenders;
+  PlanSettings settings;
+  std::uint64_t seed;
+  std::vector<std::unique_ptr<MotionTables>> tables;  // one per different body
+  std::vector<int> body_of;                           // contender -> tables
+  std::unique_ptr<ImpactMemo> memo;
+  // clean[attacker body][victim body][action][strike], thousandths.
+  std::vector<std::vector<std::vector<std::vector<std::int32_t>>>> clean;
+  std::vector<std::vector<double>> use;  // phi by contender and action
+
+  Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s);
+  DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
+                  Tick last_contact) const;
+  SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
+  FighterId opponent_of(const FightState& state, FighterId fighter) const;
+  Searched search(const DuelSetup& setup, const FightState& state) const;
+  Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root) const;
+  std::size_t choice(const Roots& roots, const Style& style, Tick now, FighterId fighter) const;
+  Line line_of(const RootMove<Duel>& move, const DuelSetup& setup) const;
+};
+
+Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how,
+                        std::uint64_t s)
+    : library(of), contenders(std::move(who)), settings(how), seed(s) {
+  for (const Contender& one : contenders) {
+    const auto same = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {
+      return same_build(t->body().spec, one.body.spec);
+    });
+    body_of.push_back(static_cast<int>(same - tables.begin()));
+    if (same == tables.end()) tables.push_back(std::make_unique<MotionTables>(library, one.body));
+  }
+  std::vector<const MotionTables*> pointers;
+  for (const auto& one : tables) pointers.push_back(one.get());
+  memo = std::make_unique<ImpactMemo>(pointers);
+  clean.resize(tables.size());
+  for (std::size_t a = 0; a < tables.size(); ++a) {
+    clean[a].resize(tables.size());
+    for (std::size_t v = 0; v < tables.size(); ++v) {
+      for (std::size_t i = 0; i < library.actions().size(); ++i) {
+        std::vector<std::int32_t> damages;
+        for (std::size_t k = 0; k < library.actions()[i].strikes.size(); ++k) {
+          damages.push_back(
+              memo->clean_damage(static_cast<int>(a), ActionId(i), k, static_cast<int>(v)));
+        }
+        clean[a][v].push_back(std::move(damages));
+      }
+    }
+  }
+  use.assign(contenders.size(), std::vector<double>(library.actions().size(), 0.0));
+}
+
+FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighter) const {
+  const FighterState& self = state.fighters[fighter.at()];
+  if (self.opponent.valid() && self.opponent != fighter &&
+      self.opponent.at() < state.fighters.size()) {
+    return self.opponent;
+  }
+  FighterId nearest;
+  float least = std::numeric_limits<float>::max();
+  const auto root = [&](std::size_t i) {
+    return InFlight(*tables[static_cast<std::size_t>(body_of[i])], state.fighters[i].launch)
+        .root_at(state.now);
+  };
+  const Placement own = root(fighter.at());
+  for (std::size_t i = 0; i < state.fighters.size(); ++i) {
+    if (i == fighter.at()) continue;
+    const float distance = glm::distance(own.position(), root(i).position());
+    if (distance < least) least = distance, nearest = FighterId(i);
+  }
+  return nearest;
+}
+
+SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet) const {
+  SideSetup side;
+  side.body = body_of[fighter.at()];
+  side.tables = tables[static_cast<std::size_t>(side.body)].get();
+  side.id = fighter;
+  side.style = &contenders[fighter.at()].style;
+  side.weights = weights_at(*side.style, quiet);
+  for (std::size_t i = 0; i < library.actions().size(); ++i) {
+    side.launch.push_back(thousandths(
+        launch_points(side.weights, *side.style, library.actions()[i], use[fighter.at()][i])));
+  }
+  side.clean_damage =
+      clean[static_cast<std::size_t>(side.body)][static_cast<std::size_t>(body_of[other.at()])];
+  return side;
+}
+
+DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, FighterId opponent,
+                                 Tick last_contact) const {
+  const double quiet = seconds(std::max(0, state.now - last_contact));
+  DuelSetup setup;
+  setup.side[0] = side_setup(fighter, opponent, quiet);
+  setup.side[1] = side_setup(opponent, fighter, quiet);
+  setup.factors = leaf_factors(setup.side[0].weights);
+  setup.settings = settings;
+  setup.memo = memo.get();
+  for (std::size_t i = 0; i < state.fighters.size(); ++i) {
+    if (FighterId(i) == fighter || FighterId(i) == opponent) continue;
+    Bystander one;
+    one.body = body_of[i];
+    one.id = FighterId(i);
+    one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
+    setup.others.push_back(one);
+  }
+  return setup;
+}
+
+// One step of every move: what is left when the node limit does not pay for the shortest horizon.
+Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup,
+                                                const DuelNode& root) const {
+  Searched result;
+  result.horizon = kHorizonStep;
+  Duel game(setup, root.now + kHorizonStep);
+  std::vector<DuelMove> moves;
+  game.moves(root, moves);
+  for (const DuelMove& move : moves) {
+    const Child<DuelNode> child = game.apply(root, move);
+    result.roots.push_back({move, child, game.value(child.node), true, {}, {1, 1, 0, 0, 0}, game});
+  }
+  std::stable_sort(result.roots.begin(), result.roots.end(),
+                   [](const auto& a, const auto& b) { return a.value > b.value; });
+  result.counts.nodes = result.counts.leaves = moves.size();
+  return result;
+}
+
+// Iterative deepening by time, only under a node limit: a short horizon first, whose growth tells
+// how far the limit will carry.
+Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state) const {
+  const Style& style = *setup.side[0].style;
+  const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
+  const DuelNode root = Duel::root(setup, state);
+  const std::int32_t margin = thousandths(kMarginTemperatures * style.temperature);
+  SearchSettings search_settings;
+  RootSearch<Duel> search(search_settings, settings.threads, settings.alpha_beta);
+  const std::uint64_t limit = settings.node_limit;
+  Searched best;
+  Tick horizon = limit == 0 ? wanted : std::min(wanted, kFirstHorizon);
+  double growth = kFirstGrowth;
+  std::uint64_t nodes_before = 0;
+  while (true) {
+    Duel game(setup, state.now + horizon);
+    Roots roots = search.run(game, root, margin, limit);
+    if (roots.empty()) break;
+    const Tick before = best.horizon;
+    best.roots = std::move(roots);
+    best.horizon = horizon;
+    best.root_counts = game.counts();
+    best.counts = {};
+    for (const RootMove<Duel>& move : best.roots) best.counts += move.counts;
+    if (horizon >= wanted) break;
+    const auto nodes = static_cast<double>(std::max<std::uint64_t>(1, search.spent()));
+    if (before > 0 && nodes_before > 0) {
+      const double half_seconds = 2 * seconds(horizon - before);
+      growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / half_seconds));
+    }
+    nodes_before = search.spent();
+    // The longest horizon of the grid that the limit should pay for, half of it kept in hand.
+    const double room = 0.5 * static_cast<double>(limit) / nodes;
+    const double steps = room > 1 ? std::log(room) / std::log(growth) * 2 : 0;
+    const auto further = static_cast<Tick>(std::min(steps, 100.0)) * kHorizonStep;
+    if (further <= 0) break;
+    horizon = std::min(wanted, horizon + further);
+  }
+  return best.roots.empty() ? weighed_by_first_step(setup, root) : std::move(best);
+}
+
+// A soft choice: probability ~ exp((v - v_best) / tau) among moves within 4 tau; tau 0 takes the
+// best.
+std::size_t Planner::Inside::choice(const Roots& roots, const Style& style, Tick now,
+                                    FighterId fighter) const {
+  if (style.temperature <= 0) return 0;
+  std::vector<double> weights;
+  double sum = 0;
+  for (const RootMove<Duel>& move : roots) {
+    const double below = (roots.front().value - move.value) / 1000.0 / style.temperature;
+    const bool near = move.exact && below <= kMarginTemperatures;
+    weights.push_back(near ? std::exp(-below) : 0.0);
+    sum += weights.back();
+  }
+  Random random(derived_seed(seed, "choice", static_cast<std::uint64_t>(now)),
+                static_cast<std::uint64_t>(fighter.value));
+  double left = static_cast<double>(random.uniform()) * sum;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] <= 0) continue;
+    left -= weights[i];
+    if (left < 0) return i;
+  }
+  return 0;
+}
+
+Line Planner::Inside::line_of(const RootMove<Duel>& root, const DuelSetup& setup) const {
+  Line line;
+  line.score = root.value;
+  const auto add = [&](const DuelMove& move) {
+    const std::string& name = library.action(move.action).name;
+    line.actions.push_back(move.forced ? "*" + name : name);
+    line.actors.push_back(setup.side[move.side].id.value);
+  };
+  add(root.move);
+  for (const DuelMove& move : root.line) add(move);
+  return line;
+}
+
+namespace {
+
+Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
+               const DuelNode& node) {
+  const auto id = [&](int who) {
+    return who < 2 ? setup.side[static_cast<std::size_t>(who)].id
+                   : setup.others[static_cast<std::size_t>(who - 2)].id;
+  };
+  const ImpactAnswer& answer = foreseen.answer;
+  const Frame frame =
+      node.side[static_cast<std::size_t>(foreseen.victim)].flight.frame_at(foreseen.tick);
+  Event event;
+  event.tick = foreseen.tick;
+  event.type = foreseen.kind == DuelEvent::Kind::hit     ? EventType::hit
+               : foreseen.kind == DuelEvent::Kind::block ? EventType::block
+                                                         : EventType::miss;
+  event.who = id(foreseen.attacker);
+  event.whom = id(foreseen.victim);
+  event.action = library.action(foreseen.attack).name;
+  event.strike = library.action(foreseen.attack).strikes[foreseen.strike].kind;
+  if (foreseen.kind == DuelEvent::Kind::evaded) return event;
+  event.part = name_of(foreseen.blow.contact.struck);
+  event.point = frame.to_outer(foreseen.blow.contact.point);
+  event.speed = -glm::dot(foreseen.blow.contact.velocity, foreseen.blow.contact.normal);
+  event.damage = static_cast<float>(answer.damage) / 1000;
+  event.response = answer.outcome.response;
+  event.steps = answer.outcome.steps;
+  event.direction = wrapped_angle(frame.yaw + answer.outcome.direction);
+  event.knockout = answer.outcome.knockout;
+  event.head_spin = answer.outcome.head_spin;
+  return event;
+}
+
+// What the line says will happen: the moves are played again and their events written down.
+std::vector<Event> foreseen_events(const DuelSetup& setup, const MotionLibrary& library,
+                                   const FightState& state, const RootMove<Duel>& chosen,
+                                   Tick horizon) {
+  std::vector<Event> events;
+  Duel game(setup, state.now + horizon);
+  DuelNode node = Duel::root(setup, state);
+  std::vector<DuelMove> line{chosen.move};
+  line.insert(line.end(), chosen.line.begin(), chosen.line.end());
+  for (const DuelMove& move : line) {
+    std::vector<DuelEvent> met;
+    game.record_into(&met);
+    node = game.apply(node, move).node;
+    for (const DuelEvent& one : met) events.push_back(event_of(one, setup, library, node));
+  }
+  return events;
+}
+
+DecisionRecord record_of(const Searched& searched) {
+  DecisionRecord record;
+  record.horizon = searched.horizon;
+  record.nodes = searched.counts.nodes;
+  record.leaves = searched.counts.leaves;
+  record.forced_nodes = searched.counts.forced;
+  DuelCounts pruned = searched.root_counts;
+  for (const RootMove<Duel>& move : searched.roots) pruned += move.game.counts();
+  record.pruned_unanswered_hit = pruned.unanswered_hit;
+  record.pruned_back_turned = pruned.back_turned;
+  record.pruned_penetration = pruned.penetration;
+  record.pruned_candidates = pruned.candidates;
+  return record;
+}
+
+}  // namespace
+
+Planner::Planner(const MotionLibrary& library, std::vector<Contender> contenders,
+                 PlanSettings settings, std::uint64_t seed)
+    : inside_(std::make_unique<Inside>(library, std::move(contenders), settings, seed)) {}
+
+Planner::~Planner() = default;
+
+Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact) {
+  const Inside& in = *inside_;
+  const FighterId opponent = in.opponent_of(state, fighter);
+  const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
+  const Searched searched = in.search(setup, state);
+  const Style& style = in.contenders[fighter.at()].style;
+  const std::size_t chosen = in.choice(searched.roots, style, state.now, fighter);
+
+  Plan plan;
+  plan.record = record_of(searched);
+  std::size_t shown = std::min(kMostLines, searched.roots.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == shown;
+    const std::size_t which = last && chosen >= shown ? chosen : i;
+    if (which == chosen) plan.record.chosen = static_cast<std::int32_t>(i);
+    plan.record.lines.push_back(in.line_of(searched.roots[which], setup));
+  }
+  const RootMove<Duel>& move = searched.roots[chosen];
+  const float scale = setup.side[0].tables->body().scale;
+  const FighterState& self = state.fighters[fighter.at()];
+  if (move.move.forced) {
+    plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
+  } else {
+    const InFlight other(*setup.side[1].tables, state.fighters[opponent.at()].launch);
+    plan.launch = following(
+        in.library, self.launch, move.move.action, state.now, other.root_at(state.now).position(),
+        scale, in.library.action(move.move.action).attacks() ? kMostAttackAim : kMostAim);
+  }
+  plan.foreseen = foreseen_events(setup, in.library, state, move, searched.horizon);
+  return plan;
+}
+
+void Planner::note_launch(FighterId fighter, ActionId action) {
+  std::vector<double>& use = inside_->use[fighter.at()];
+  for (double& share : use) share *= kRarityKept;
+  use[action.at()] += 1 - kRarityKept;
+}
+
+Planner::MemoCounts Planner::memo_counts() const {
+  const ImpactMemo::Counts counts = inside_->memo->counts();
+  return {counts.lookups - counts.entries, counts.entries};
+}
+
+}  // namespace ringcraft
