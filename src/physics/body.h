@@ -14,20 +14,38 @@ namespace ringcraft {
 
 // Parts of the ragdoll: VRM's 15 required bones plus chest and neck. Parents stand before children.
 enum class Part : std::uint8_t {
-  pelvis, abdomen, chest, neck, head,
-  left_upper_arm, left_forearm, left_hand, right_upper_arm, right_forearm, right_hand,
-  left_thigh, left_shin, left_foot, right_thigh, right_shin, right_foot,
+  pelvis,
+  abdomen,
+  chest,
+  neck,
+  head,
+  left_upper_arm,
+  left_forearm,
+  left_hand,
+  right_upper_arm,
+  right_forearm,
+  right_hand,
+  left_thigh,
+  left_shin,
+  left_foot,
+  right_thigh,
+  right_shin,
+  right_foot,
 };
 inline constexpr std::size_t kPartCount = 17;
-constexpr std::size_t index(Part part) { return static_cast<std::size_t>(part); }
-constexpr Part part_at(std::size_t i) { return static_cast<Part>(i); }
+constexpr std::size_t index(Part part) {
+  return static_cast<std::size_t>(part);
+}
+constexpr Part part_at(std::size_t i) {
+  return static_cast<Part>(i);
+}
 
-std::string_view name_of(Part part);     // "leftForearm"
-Joint joint_of(Part part);               // the canonical joint at the part's root end
+std::string_view name_of(Part part);       // "leftForearm"
+Joint joint_of(Part part);                 // the canonical joint at the part's root end
 std::optional<Part> part_of(Joint joint);  // the part that a joint moves (toes move the foot)
-int parent_of(Part part);                // index of the parent part, -1 for the pelvis
+int parent_of(Part part);                  // index of the parent part, -1 for the pelvis
 Part mirrored(Part part);
-bool is_guard_part(Part part);           // hands (gloves) and forearms
+bool is_guard_part(Part part);  // hands (gloves) and forearms
 
 enum class Sex : std::uint8_t { male, female };
 
@@ -46,11 +64,11 @@ struct Capsule {
 using BodyCapsules = std::array<Capsule, kPartCount>;
 
 struct PartModel {
-  float mass = 0;              // kg
-  Vec3 center{};               // centre of mass in the joint's rest frame, m
-  Vec3 inertia{};              // principal moments about it, kg m2, in the joint's rest frame axes
+  float mass = 0;  // kg
+  Vec3 center{};   // centre of mass in the joint's rest frame, m
+  Vec3 inertia{};  // principal moments about it, kg m2, in the joint's rest frame axes
   Vec3 capsule_a{}, capsule_b{};  // axis ends in the joint's rest frame, m
-  float radius = 0;            // m
+  float radius = 0;               // m
 };
 
 struct BodyModel {
@@ -70,6 +88,11 @@ struct LimitViolation {
   Joint joint;
   float excess = 0;  // rad beyond the range
 };
-std::vector<LimitViolation> limit_violations(const BodyModel& body, const Pose& pose, float tolerance);
+std::vector<LimitViolation> limit_violations(const BodyModel& body, const Pose& pose,
+                                             float tolerance);
+
+// The pose with every joint brought back to at most `tolerance` (rad) beyond its range, by the
+// shortest way toward the middle of the range.
+Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance);
 
 }  // namespace ringcraft

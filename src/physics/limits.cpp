@@ -1,6 +1,7 @@
 // Joint ranges, measured from the T-pose (validation V3; where V3 is silent, the AMA Guides'
 // ranges).
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/body.h"
@@ -109,29 +110,106 @@ float toes_excess(Quat q) {
   return std::max(beyond(s.twist, {-90, 50}), glm::length(s.swing) - radians(25));
 }
 
-}  // namespace
+// One limit: the joint that is named, the joints whose turns add up to it, and how far a pose is
+// beyond.
+struct Limit {
+  Joint joint;
+  std::array<Joint, 3> chain;  // from the root on; the named joint moves, where `count` is 1 or 2
+  int count;
+  float (*excess)(Quat);
+  Quat middle;  // well inside the range, as the left side's turn
+  bool left;
+};
 
-std::vector<LimitViolation> limit_violations(const BodyModel&, const Pose& pose, float tolerance) {
-  const auto q = [&](Joint joint) { return pose.rotation[index(joint)]; };
-  std::vector<LimitViolation> found;
-  const auto note = [&](Joint joint, float excess) {
-    if (excess > tolerance) found.push_back({joint, excess});
-  };
-  note(Joint::spine, trunk_excess(q(Joint::spine) * q(Joint::chest) * q(Joint::upper_chest)));
-  note(Joint::neck, neck_excess(q(Joint::neck) * q(Joint::head)));
+Quat chained(const Limit& limit, const Pose& pose) {
+  Quat q(1, 0, 0, 0);
+  for (int i = 0; i < limit.count; ++i) {
+    q = q * pose.rotation[index(limit.chain[static_cast<std::size_t>(i)])];
+  }
+  return q;
+}
+
+float excess_of(const Limit& limit, const Pose& pose) {
+  return limit.excess(as_left(chained(limit, pose), limit.left));
+}
+
+std::vector<Limit> make_limits() {
+  const Quat none(1, 0, 0, 0);
+  std::vector<Limit> all;
+  all.push_back({Joint::spine,
+                 {Joint::spine, Joint::chest, Joint::upper_chest},
+                 3,
+                 trunk_excess,
+                 none,
+                 true});
+  all.push_back({Joint::neck, {Joint::neck, Joint::head, Joint::head}, 2, neck_excess, none, true});
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
     const Limb a = arm(side), l = leg(side);
     const Joint clavicle = left ? Joint::left_shoulder : Joint::right_shoulder;
-    note(a.root, shoulder_excess(as_left(q(clavicle) * q(a.root), left)));
-    note(a.middle, elbow_excess(as_left(q(a.middle), left)));
-    note(a.end, wrist_excess(as_left(q(a.end), left)));
-    note(l.root, hip_excess(as_left(q(l.root), left)));
-    note(l.middle, knee_excess(as_left(q(l.middle), left)));
-    note(l.end, ankle_excess(as_left(q(l.end), left)));
-    note(toes(side), toes_excess(as_left(q(toes(side)), left)));
+    const auto single = [&](Joint joint, float (*excess)(Quat), Quat middle) {
+      all.push_back({joint, {joint, joint, joint}, 1, excess, middle, left});
+    };
+    all.push_back({a.root,
+                   {clavicle, a.root, a.root},
+                   2,
+                   shoulder_excess,
+                   rotation_between(kLeft, Vec3{.55f, -.35f, .75f}),
+                   left});
+    single(a.middle, elbow_excess, from_rotation_vector({0, -radians(60), 0}));
+    single(a.end, wrist_excess, none);
+    single(l.root, hip_excess, from_rotation_vector({-radians(45), 0, 0}));
+    single(l.middle, knee_excess, from_rotation_vector({radians(60), 0, 0}));
+    single(l.end, ankle_excess, none);
+    single(toes(side), toes_excess, none);
+  }
+  return all;
+}
+
+const std::vector<Limit>& limits() {
+  static const std::vector<Limit> all = make_limits();
+  return all;
+}
+
+// The pose with one limit's joints a `share` of the way back to the middle of the range.
+Pose eased(const Limit& limit, const Pose& pose, float share) {
+  Pose out = pose;
+  const auto toward = [&](Joint joint, Quat goal) {
+    Quat& q = out.rotation[index(joint)];
+    q = glm::normalize(glm::slerp(q, in_hemisphere_of(goal, q), share));
+  };
+  const Quat middle = as_left(limit.middle, limit.left);
+  if (limit.excess == shoulder_excess) {
+    toward(limit.joint, glm::conjugate(pose.rotation[index(limit.chain[0])]) * middle);
+    return out;
+  }
+  for (int i = 0; i < limit.count; ++i) toward(limit.chain[static_cast<std::size_t>(i)], middle);
+  return out;
+}
+
+}  // namespace
+
+std::vector<LimitViolation> limit_violations(const BodyModel&, const Pose& pose, float tolerance) {
+  std::vector<LimitViolation> found;
+  for (const Limit& limit : limits()) {
+    const float excess = excess_of(limit, pose);
+    if (excess > tolerance) found.push_back({limit.joint, excess});
   }
   return found;
+}
+
+Pose within_limits(const BodyModel&, const Pose& pose, float tolerance) {
+  Pose out = pose;
+  for (const Limit& limit : limits()) {
+    if (excess_of(limit, out) <= tolerance) continue;
+    float low = 0, high = 1;  // shares: beyond, within
+    for (int i = 0; i < 12; ++i) {
+      const float share = (low + high) / 2;
+      (excess_of(limit, eased(limit, out, share)) > tolerance ? low : high) = share;
+    }
+    out = eased(limit, out, high);
+  }
+  return out;
 }
 
 }  // namespace ringcraft
