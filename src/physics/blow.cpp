@@ -1,0 +1,196 @@
+// The blow: effective masses of both sides along its line, and the impulse they exchange.
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "physics/impact.h"
+#include "physics/muscles.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kContactSeconds = 0.010f;  // of a blow, ragdoll.md section 4
+constexpr float kRestitution = 0.10f;      // glove on body: nearly all is lost
+constexpr float kFriction = 0.5f;          // leather on skin: the line stays within its cone
+constexpr float kStruckTone = 0.25f;       // the struck part's muscles over the contact time
+constexpr float kBlockShare = 0.5f;        // of a blow's impulse that a guard passes on to the body
+
+constexpr int kMostFreedoms = 6 + 12 * 3 + 4;
+
+// The articulated body at one pose: 6 coordinates of the pelvis, 3 of each ball joint, 1 of each
+// hinge.
+class Articulated {
+ public:
+  using Matrix = Eigen::Matrix<double, kMostFreedoms, kMostFreedoms>;
+  using Row = Eigen::Matrix<double, 1, kMostFreedoms>;
+
+  Articulated(const BodyModel& body, const Pose& pose) : body_(body) {
+    const WorldPose world = world_pose(body.skeleton, pose);
+    int next = 6;
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      const std::size_t j = index(joint_of(part_at(i)));
+      pivot_[i] = world.position[j];
+      turn_[i] = world.rotation[j];
+      center_[i] = world.position[j] + world.rotation[j] * body.parts[i].center;
+      first_[i] = i == 0 ? 0 : next;
+      if (i > 0) next += is_hinge(part_at(i)) ? 1 : 3;
+    }
+  }
+
+  // M + T Kd + T^2 Kp: what a blow of contact time T meets when the muscles hold with `tone`.
+  Matrix mass(float tone) const {
+    Matrix m = Matrix::Zero();
+    Columns columns;
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      collect(i, center_[i], columns);
+      const PartModel& p = body_.parts[i];
+      const glm::mat3 r = glm::mat3_cast(turn_[i]);
+      const glm::mat3 inertia = r *
+                                glm::mat3(p.inertia.x, 0, 0, 0, p.inertia.y, 0, 0, 0, p.inertia.z) *
+                                glm::transpose(r);
+      for (int a = 0; a < columns.count; ++a) {
+        const Vec3 turned = inertia * columns.angular[a];
+        for (int b = 0; b <= a; ++b) {
+          const float value = p.mass * glm::dot(columns.linear[a], columns.linear[b]) +
+                              glm::dot(turned, columns.angular[b]);
+          m(columns.at[a], columns.at[b]) += static_cast<double>(value);
+        }
+      }
+    }
+    m.template triangularView<Eigen::StrictlyUpper>() = m.transpose();
+    for (std::size_t i = 1; i < kPartCount; ++i) {
+      const Muscle muscle = muscle_of(body_, part_at(i));
+      const float added =
+          tone * kContactSeconds * (muscle.damping() + kContactSeconds * muscle.stiffness);
+      const int n = is_hinge(part_at(i)) ? 1 : 3;
+      for (int k = 0; k < n; ++k) m(first_[i] + k, first_[i] + k) += static_cast<double>(added);
+    }
+    return m;
+  }
+
+  // Velocity of `point` on `part` along `line` per unit of each coordinate's velocity.
+  Row jacobian(Part part, Vec3 point, Vec3 line) const {
+    Columns columns;
+    collect(index(part), point, columns);
+    Row row = Row::Zero();
+    for (int a = 0; a < columns.count; ++a) {
+      row(columns.at[a]) = static_cast<double>(glm::dot(columns.linear[a], line));
+    }
+    return row;
+  }
+
+ private:
+  struct Columns {  // of the coordinates that move one part
+    std::array<Vec3, kMostFreedoms> linear, angular;
+    std::array<int, kMostFreedoms> at{};
+    int count = 0;
+    void add(int column, Vec3 v, Vec3 w) {
+      const auto i = static_cast<std::size_t>(count++);
+      linear[i] = v;
+      angular[i] = w;
+      at[i] = column;
+    }
+  };
+
+  // Ascending coordinates first to last along the chain from the pelvis to `part`.
+  void collect(std::size_t part, Vec3 point, Columns& columns) const {
+    columns.count = 0;
+    std::array<std::size_t, kPartCount> chain{};
+    std::size_t n = 0;
+    for (int i = static_cast<int>(part); i > 0;
+         i = parent_of(part_at(static_cast<std::size_t>(i)))) {
+      chain[n++] = static_cast<std::size_t>(i);
+    }
+    const std::array<Vec3, 3> axes = {kLeft, kUp, kForward};
+    for (int k = 0; k < 3; ++k) columns.add(k, axes[static_cast<std::size_t>(k)], Vec3{});
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 w = axes[static_cast<std::size_t>(k)];
+      columns.add(3 + k, glm::cross(w, point - pivot_[0]), w);
+    }
+    while (n > 0) {
+      const std::size_t i = chain[--n];
+      if (is_hinge(part_at(i))) {
+        const bool knee = index(part_at(i)) >= index(Part::left_thigh);
+        const Vec3 w = turn_[i] * (knee ? kLeft : kUp);
+        columns.add(first_[i], glm::cross(w, point - pivot_[i]), w);
+        continue;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 w = axes[static_cast<std::size_t>(k)];
+        columns.add(first_[i] + k, glm::cross(w, point - pivot_[i]), w);
+      }
+    }
+  }
+
+  const BodyModel& body_;
+  std::array<Vec3, kPartCount> pivot_, center_;
+  std::array<Quat, kPartCount> turn_;
+  std::array<int, kPartCount> first_{};
+};
+
+struct StrikeTraits {
+  float tone;         // of the striking limb (ragdoll.md: .1 of straights, .5 of hooks and kicks)
+  float least, most;  // kg: a straight limb is nearly singular, its mass doubles within centimetres
+};
+
+StrikeTraits traits_of(StrikeKind kind) {
+  switch (kind) {
+    case StrikeKind::straight:
+      return {.1f, 1.0f, 4.0f};
+    case StrikeKind::hook:
+    case StrikeKind::uppercut:
+      return {.5f, 1.0f, 4.0f};
+    case StrikeKind::roundhouse:
+      return {.5f, 2.0f, 7.0f};
+    case StrikeKind::front_kick:
+    case StrikeKind::side_kick:
+      return {.5f, 4.0f, 18.0f};
+  }
+  return {.1f, 1.0f, 4.0f};
+}
+
+// The line of the blow: the way of the striker, turned into the cone of friction around the
+// surface's inner normal.
+Vec3 line_of(Vec3 velocity, Vec3 inward) {
+  const Vec3 way = normalized_or(velocity, inward);
+  const float across = std::sqrt(std::max(0.0f, 1 - glm::dot(way, inward) * glm::dot(way, inward)));
+  const float along = glm::dot(way, inward);
+  if (along > 0 && across <= kFriction * along) return way;
+  const Vec3 side = normalized_or(way - inward * along, Vec3{});
+  return glm::normalize(inward + kFriction * side);
+}
+
+}  // namespace
+
+float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
+                     float tone) {
+  const Articulated articulated(body, pose);
+  const auto row = articulated.jacobian(part, point, normalized_or(line, kForward));
+  const Eigen::LDLT<Articulated::Matrix> solver(articulated.mass(tone));
+  const double inverse_mass = row.dot(solver.solve(row.transpose()));
+  return static_cast<float>(1.0 / std::max(inverse_mass, 1e-6));
+}
+
+Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
+             const Pose& target_pose, const Contact& contact, StrikeKind kind) {
+  Blow blow;
+  blow.part = contact.struck;
+  blow.point = contact.point;
+  blow.blocked = contact.blocked;
+  const Vec3 line = line_of(contact.velocity, -contact.normal);
+  blow.speed = std::max(0.0f, glm::dot(contact.velocity, line));
+  const StrikeTraits traits = traits_of(kind);
+  blow.effective_mass = std::clamp(
+      effective_mass(attacker, attacker_pose, contact.striker, contact.point, line, traits.tone),
+      traits.least, traits.most);
+  const float struck =
+      effective_mass(target, target_pose, contact.struck, contact.point, line, kStruckTone);
+  const float both = 1 / (1 / blow.effective_mass + 1 / struck);
+  const float share = contact.blocked ? kBlockShare : 1.0f;
+  blow.impulse = line * (share * (1 + kRestitution) * blow.speed * both);
+  return blow;
+}
+
+}  // namespace ringcraft
