@@ -21,7 +21,8 @@ struct Blow {
   bool blocked = false;
 };
 
-// J = (1+e) v / (1/m_striker + 1/m_struck) along the line of the blow; a block passes on a part of it.
+// J = (1+e) v / (1/m_striker + 1/m_struck) along the line of the blow; a block passes on a part of
+// it.
 Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
              const Pose& target_pose, const Contact& contact, StrikeKind kind);
 
@@ -29,17 +30,18 @@ Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyMod
 struct ImpactInput {
   Pose pose;                        // world, at the contact
   Pose pose_before;                 // one tick earlier: gives the start velocities
-  std::span<const Pose> continued;  // world: the interrupted action's next frames, which the muscles
-                                    // track; at least kImpulseStepTicks + 1, pose first
+  std::span<const Pose> continued;  // world: the interrupted action's next frames, which the
+                                    // muscles track; at least kImpulseStepTicks + 1, pose first
   Blow blow;
-  float tone = 1.0f;                // 0 limp .. 1 full
-  FootContacts contacts;            // feet on the ground at the contact
+  float tone = 1.0f;      // 0 limp .. 1 full
+  FootContacts contacts;  // feet on the ground at the contact
 };
 
 inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
 
-// Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. A clean
-// cross gives about 25 at neck tone 0.5; of order 1 % of landed punches knock down (validation V1).
+// Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. A
+// clean cross gives about 25 at neck tone 0.5; of order 1 % of landed punches knock down
+// (validation V1).
 inline constexpr float kKnockoutSpin = 38.0f;
 
 // Whole-body tone under which nobody stands (ragdoll.md section 7, 12).
@@ -47,28 +49,28 @@ inline constexpr float kLeastStandingTone = 0.25f;
 
 struct ImpactOutcome {
   ResponseKind response = ResponseKind::absorb;
-  int steps = 0;                // 1..3 for recovery steps
-  float direction = 0;          // world yaw in which the body goes
-  bool knockout = false;        // a knockdown because the head's rotation switched the muscles off
-  float head_spin = 0;          // change of the head's angular velocity, rad/s
-  float margin = 0;             // m: the extrapolated centre of mass beyond the base of support (< 0 inside)
-  Vec3 com_velocity{};          // after the impulse step, m/s
+  int steps = 0;          // 1..3 for recovery steps
+  float direction = 0;    // world yaw in which the body goes
+  bool knockout = false;  // a knockdown because the head's rotation switched the muscles off
+  float head_spin = 0;    // change of the head's angular velocity, rad/s
+  float margin = 0;  // m: the extrapolated centre of mass beyond the base of support (< 0 inside)
+  Vec3 com_velocity{};  // after the impulse step, m/s
   bool operator==(const ImpactOutcome&) const = default;
 };
 
-// A fresh Bullet world in a canonical frame (root at the origin, heading removed), 24 steps of 1/240 s,
-// then the decision by capturability and head rotation. Same input, same bits.
+// A fresh Bullet world in a canonical frame (root at the origin, heading removed), 24 steps of
+// 1/240 s, then the decision by capturability and head rotation. Same input, same bits.
 ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input);
 
-// The shown response: a second simulation, active, from the same start, aimed at `target` (world poses,
-// one a tick from the contact on). Returns `ticks` world poses, the first one tick after the contact. A
-// knockdown falls with bracing arms and comes to rest; a knockout falls limp.
+// The shown response: a second simulation, active, from the same start, aimed at `target` (world
+// poses, one a tick from the contact on). Returns `ticks` world poses, the first one tick after the
+// contact. A knockdown falls with bracing arms and comes to rest; a knockout falls limp.
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks);
 
-// Damage of a blow in thousandths of a point, by impulse and zone; a clean jab to the head costs about
-// 3 points, a cross 7, a hook 8, a roundhouse to the body 12. A fighter starts with 100.
+// Damage of a blow in thousandths of a point, by impulse and zone; a clean jab to the head costs
+// about 3 points, a cross 7, a hook 8, a roundhouse to the body 12. A fighter starts with 100.
 std::int32_t damage_of(const Blow& blow, const ImpactOutcome& outcome);
 
 }  // namespace ringcraft

@@ -1,0 +1,43 @@
+#pragma once
+// Balance: the extrapolated centre of mass against the base of support (Hof 2005; validation V2).
+
+#include <span>
+#include <vector>
+
+#include "motion/clip.h"
+#include "physics/body.h"
+
+namespace ringcraft {
+
+// Eigenfrequency of the body as an inverted pendulum, 1/s: sqrt(g / l), l = 1.2 trochanter heights.
+float pendulum_rate(const BodyModel& body);
+
+// Extrapolated centre of mass on the ground, m: x + v / w0.
+Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate);
+
+// Convex hull of points on the ground (y is ignored), counter-clockwise seen from above (+X to +Z
+// is clockwise there: what counts is that `beyond` agrees). Fewer than three corners are allowed.
+class Base {
+ public:
+  explicit Base(std::span<const Vec3> points);
+  bool empty() const { return corners_.empty(); }
+  Vec3 middle() const;
+
+  struct Beyond {
+    float distance = 0;  // m; negative inside: depth to the nearest edge
+    Vec3 direction{};    // unit, on the ground: outward through the nearest edge
+  };
+  Beyond beyond(Vec3 point) const;
+
+ private:
+  std::vector<Vec2> corners_;
+};
+
+// The base under the planted feet of a pose.
+Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contacts);
+
+// How far beyond the base the extrapolated centre of mass may be, m, so that `steps` recovery steps
+// bring it back: at the instant of the blow, in a direction `off` rad from the own facing.
+float step_allowance(const BodyModel& body, int steps, float off);
+
+}  // namespace ringcraft

@@ -1,0 +1,183 @@
+#include "physics/impact_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/ik.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kMostPartSpeed = 15;    // m/s that a blow may give to the part it meets
+constexpr float kPartTone = .25f;       // of the struck part, for the mass that it offers
+constexpr float kStanding = .03f;       // m: a sole this near to the ground stands on it
+constexpr float kMostGrounding = .12f;  // m: farther from the ground it is in the air after all
+constexpr float kMostShift = .12f;      // m: of the pelvis, against the drift
+constexpr float kBalanceGain = 1.0f;
+
+Vec3 flipped(Vec3 v) {
+  return {-v.x, v.y, v.z};
+}
+
+float lowest(const BodyModel& body, const WorldPose& world, Side side) {
+  float low = 1e9f;
+  for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
+  return low;
+}
+
+// Moves an ankle by `offset`, the foot keeping its attitude.
+void move_ankle(const Skeleton& skeleton, Side side, Vec3 offset, Pose& pose) {
+  const Limb limb = leg(side);
+  const WorldPose world = world_pose(skeleton, pose);
+  const Vec3 fallback = world.rotation[0] * kForward;
+  solve_limb(skeleton, limb,
+             {world.position[index(limb.end)] + offset, present_pole(world, limb, fallback), 1.0f},
+             pose);
+}
+
+}  // namespace
+
+ImpactFrame::ImpactFrame(const BodyModel& body, const ImpactInput& input) : blow_(input.blow) {
+  placement_ = {input.pose.hips.x, input.pose.hips.z, heading_of(input.pose.rotation[0])};
+  inverse_ = inverse(placement_);
+  const Quat unturned = yaw_rotation(-placement_.yaw);
+  blow_.impulse = unturned * blow_.impulse;
+  blow_.point = inverse_ * blow_.point;
+  constexpr float kStraight = 1e-4f;  // N s: below it the side is that of the point
+  const float aside = std::abs(blow_.impulse.x) > kStraight ? blow_.impulse.x : blow_.point.x;
+  mirrored_ = aside < 0;
+  if (mirrored_) {
+    blow_.impulse = flipped(blow_.impulse);
+    blow_.point = flipped(blow_.point);
+    blow_.part = ringcraft::mirrored(blow_.part);
+  }
+  pose_ = in(input.pose);
+  before_ = in(input.pose_before);
+  const auto count = std::min<std::size_t>(input.continued.size(), kImpulseStepTicks + 1);
+  for (std::size_t i = 0; i < count; ++i) continued_.push_back(in(input.continued[i]));
+  if (continued_.empty()) continued_.push_back(pose_);
+  FootContacts given = input.contacts;
+  if (mirrored_) std::swap(given.left, given.right);
+  find_contacts(body, given);
+  put_on_ground(body);
+}
+
+const Pose& ImpactFrame::continued(int tick) const {
+  return continued_[std::min(static_cast<std::size_t>(std::max(tick, 0)), continued_.size() - 1)];
+}
+
+Pose ImpactFrame::in(const Pose& world) const {
+  const Pose turned = placed(world, inverse_);
+  return mirrored_ ? ringcraft::mirrored(turned) : turned;
+}
+
+Pose ImpactFrame::out(const Pose& canonical) const {
+  return placed(mirrored_ ? ringcraft::mirrored(canonical) : canonical, placement_);
+}
+
+ImpactOutcome ImpactFrame::out(ImpactOutcome outcome) const {
+  if (mirrored_) {
+    outcome.direction = -outcome.direction;
+    outcome.com_velocity = flipped(outcome.com_velocity);
+  }
+  outcome.direction = wrapped_angle(outcome.direction + placement_.yaw);
+  outcome.com_velocity = yaw_rotation(placement_.yaw) * outcome.com_velocity;
+  return outcome;
+}
+
+float ImpactFrame::in_yaw(float world) const {
+  const float off = wrapped_angle(world - placement_.yaw);
+  return mirrored_ ? -off : off;
+}
+
+// A foot that is said to stand must be near the ground; a body that is said to fly may stand after
+// all.
+void ImpactFrame::find_contacts(const BodyModel& body, FootContacts given) {
+  const WorldPose world = world_pose(body.skeleton, pose_);
+  const auto near = [&](Side side, float height) { return lowest(body, world, side) < height; };
+  contacts_.left = given.left && near(Side::left, kMostGrounding);
+  contacts_.right = given.right && near(Side::right, kMostGrounding);
+  if (!contacts_.left && !contacts_.right) {
+    contacts_.left = near(Side::left, kStanding);
+    contacts_.right = near(Side::right, kStanding);
+  }
+}
+
+void ImpactFrame::put_on_ground(const BodyModel& body) {
+  if (!contacts_.left && !contacts_.right) return;
+  const WorldPose world = world_pose(body.skeleton, pose_);
+  const float left = lowest(body, world, Side::left), right = lowest(body, world, Side::right);
+  // The whole body first, so that its lower planted foot stands, then the other one alone.
+  const float drop =
+      contacts_.left && contacts_.right ? std::min(left, right) : (contacts_.left ? left : right);
+  lowered_ = drop;
+  const auto mend = [&](Pose& pose) {
+    pose.hips.y -= drop;
+    constexpr float kLeast = .003f;  // m
+    if (contacts_.left && left - drop > kLeast) {
+      move_ankle(body.skeleton, Side::left, {0, drop - left, 0}, pose);
+    }
+    if (contacts_.right && right - drop > kLeast) {
+      move_ankle(body.skeleton, Side::right, {0, drop - right, 0}, pose);
+    }
+  };
+  mend(pose_);
+  mend(before_);
+  for (Pose& pose : continued_) mend(pose);
+}
+
+void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share) {
+  const Blow& blow = frame.blow();
+  const float size = glm::length(blow.impulse);
+  if (size <= 0) return;
+  const Vec3 line = blow.impulse / size;
+  const float mass = effective_mass(body, frame.pose(), blow.part, blow.point, line, kPartTone);
+  const float taken = std::min(size, mass * kMostPartSpeed);
+  // The point goes with the part while a long blow lasts.
+  const WorldPose start = world_pose(body.skeleton, frame.pose());
+  const std::size_t j = index(joint_of(blow.part));
+  const Vec3 local = glm::conjugate(start.rotation[j]) * (blow.point - start.position[j]);
+  const PartMotion now = ragdoll.motion(blow.part);
+  ragdoll.push(blow.part, now.origin + now.rotation * local, line * (taken * share));
+  const int parent = parent_of(blow.part);
+  if (taken < size && parent >= 0) {
+    ragdoll.push(part_at(static_cast<std::size_t>(parent)), now.origin,
+                 line * ((size - taken) * share));
+  }
+}
+
+Base standing_base(const BodyModel& body, const Pose& pose) {
+  const WorldPose world = world_pose(body.skeleton, pose);
+  return base_of(
+      body, world,
+      {lowest(body, world, Side::left) < kStanding, lowest(body, world, Side::right) < kStanding});
+}
+
+Balance::Balance(const BodyModel& body, const ImpactFrame&)
+    : body_(body), rate_(pendulum_rate(body)) {}
+
+void Balance::guide(Ragdoll& ragdoll, const ImpactFrame& frame, int k) {
+  const Pose &from = frame.continued(k / 2), &to = frame.continued(k / 2 + 1);
+  guide(ragdoll, k % 2 == 0 ? from : mix(from, to, .5f), from, to);
+}
+
+void Balance::guide(Ragdoll& ragdoll, const Pose& target, const Pose& before, const Pose& after) {
+  const Skeleton& skeleton = body_.skeleton;
+  const Vec3 at = center_of_mass(body_, world_pose(skeleton, target));
+  const Vec3 moving = (center_of_mass(body_, world_pose(skeleton, after)) -
+                       center_of_mass(body_, world_pose(skeleton, before))) /
+                      kTickSeconds;
+  const Vec3 drift =
+      extrapolated(ragdoll.center_of_mass(), ragdoll.center_of_mass_velocity(), rate_) -
+      extrapolated(at, moving, rate_);
+  const float size = glm::length(drift);
+  const Vec3 shift = -drift * (size > 0 ? std::min(kBalanceGain, kMostShift / size) : 0.0f);
+  Pose aimed = target;
+  aimed.hips += shift;
+  for (const Side side : {Side::left, Side::right}) {
+    move_ankle(skeleton, side, -shift, aimed);
+  }
+  ragdoll.track(aimed, before, after, kTickSeconds);
+}
+
+}  // namespace ringcraft

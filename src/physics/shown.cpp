@@ -1,0 +1,256 @@
+// The shown response: the second simulation of a hit, active, aimed at the chosen clip or at a
+// fall.
+#include <algorithm>
+#include <cmath>
+
+#include "motion/ik.h"
+#include "physics/impact_frame.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr float kReflex = .12f;    // s: no reflex is faster; until then the struck body gives
+constexpr float kFirm = .30f;      // s: full tone again
+constexpr float kIntoClip = .20f;  // s over which the aim goes from the cut action to the clip
+constexpr float kMeetFrom = .12f, kMeetBy = .45f;  // s: the simulated motion meets the clip
+constexpr float kProtect = .10f;                   // s: from here on a falling body protects itself
+constexpr float kLimpTone = .03f;                  // of a knocked-out body; 0 looks like a sack
+constexpr float kLyingTone = .08f;
+constexpr float kFade = .6f;               // s after the landing in which the muscles let go
+constexpr float kResting = .15f;           // m/s
+constexpr float kRestFor = .25f;           // s
+constexpr float kMostAfterLanding = 2.5f;  // s
+constexpr int kPunchSteps = 3;     // of 1/240 s over which a punch's impulse is spread (12 ms)
+constexpr int kKickSteps = 12;     // of a kick (50 ms)
+constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
+constexpr float kLimitTolerance = radians(2);
+
+float smooth(float t) {
+  t = std::clamp(t, 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// Muscles of a struck body that stays up: trunk and neck give until the reflex, the legs carry on.
+Tone standing_tone(float seconds, float tone) {
+  const float back = smooth((seconds - kReflex) / (kFirm - kReflex));
+  const auto ramp = [&](float low) { return tone * (low + (1 - low) * back); };
+  Tone t = whole_body(ramp(.4f));
+  for (const Part p : {Part::neck, Part::head}) t[index(p)] = ramp(.25f);
+  for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) t[i] = ramp(.9f);
+  return t;
+}
+
+Tone falling_tone() {
+  Tone t = whole_body(.35f);  // arms
+  for (const Part p : {Part::abdomen, Part::chest}) t[index(p)] = .4f;
+  for (const Part p : {Part::neck, Part::head}) t[index(p)] = .6f;
+  for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) t[i] = .2f;
+  return t;
+}
+
+void set_arm(Pose& pose, bool left, Vec3 direction, float elbow) {
+  const float out = left ? 1.0f : -1.0f;
+  const Limb a = arm(left ? Side::left : Side::right);
+  pose.rotation[index(a.root)] =
+      rotation_between(Vec3{out, 0, 0}, Vec3{out * direction.x, direction.y, direction.z});
+  pose.rotation[index(a.middle)] = from_rotation_vector({0, -out * radians(elbow), 0});
+}
+
+void set_legs(Pose& pose, float hip, float knee) {
+  for (const Side side : {Side::left, Side::right}) {
+    pose.rotation[index(leg(side).root)] = from_rotation_vector({-radians(hip), 0, 0});
+    pose.rotation[index(leg(side).middle)] = from_rotation_vector({radians(knee), 0, 0});
+    pose.rotation[index(leg(side).end)] = Quat(1, 0, 0, 0);
+  }
+}
+
+void bend(Pose& pose, float trunk, float neck, float head) {
+  pose.rotation[index(Joint::spine)] = from_rotation_vector({radians(trunk * .6f), 0, 0});
+  pose.rotation[index(Joint::chest)] = from_rotation_vector({radians(trunk * .4f), 0, 0});
+  pose.rotation[index(Joint::neck)] = from_rotation_vector({radians(neck), 0, 0});
+  pose.rotation[index(Joint::head)] = from_rotation_vector({radians(head), 0, 0});
+}
+
+// What a falling body does (ragdoll.md section 5), by the direction it falls in off its facing.
+Pose protective_pose(const Pose& now, float direction) {
+  Pose pose = now;
+  const float off = std::abs(direction);
+  if (off > radians(120)) {  // back: chin tucked, rolls over the seat
+    bend(pose, 30, 22, 18);
+    set_legs(pose, 60, 75);
+    for (const bool left : {true, false}) set_arm(pose, left, {.6f, -.6f, -.5f}, 20);
+  } else if (off < radians(60)) {  // fore: arms and knees to the ground, face away
+    bend(pose, 15, -17, -10);
+    set_legs(pose, 35, 50);
+    for (const bool left : {true, false}) set_arm(pose, left, {.15f, -.26f, .97f}, 35);
+  } else {  // side: the near arm out
+    const bool left = direction > 0;
+    bend(pose, 15, 5, 5);
+    set_legs(pose, 40, 60);
+    set_arm(pose, left, {.80f, -.50f, .25f}, 20);
+    set_arm(pose, !left, {.25f, -.60f, .70f}, 60);
+  }
+  return pose;
+}
+
+bool trunk_down(const BodyModel& body, const Pose& pose) {
+  const BodyCapsules c = capsules(body, world_pose(body.skeleton, pose));
+  for (const Part p : {Part::pelvis, Part::abdomen, Part::chest}) {
+    const Capsule& k = c[index(p)];
+    if (std::min(k.a.y, k.b.y) - k.radius < .03f) return true;
+  }
+  return false;
+}
+
+// No sole below the ground, no joint beyond its range.
+Pose mended(const BodyModel& body, const Pose& simulated) {
+  Pose pose = within_limits(body, simulated, kLimitTolerance);
+  for (const Side side : {Side::left, Side::right}) {
+    const WorldPose world = world_pose(body.skeleton, pose);
+    float low = 0;
+    for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
+    if (low > -.001f) continue;
+    const Limb limb = leg(side);
+    solve_limb(body.skeleton, limb,
+               {world.position[index(limb.end)] - Vec3{0, low, 0},
+                present_pole(world, limb, world.rotation[0] * kForward), 1.0f},
+               pose);
+  }
+  return pose;
+}
+
+class Shown {
+ public:
+  Shown(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
+        std::span<const Pose> target)
+      : body_(body),
+        outcome_(outcome),
+        tone_(input.tone),
+        target_(target),
+        frame_(body, input),
+        ragdoll_(body, frame_.pose(), frame_.before(), kTickSeconds,
+                 {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
+        balance_(body, frame_),
+        steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
+
+  std::vector<Pose> run(Tick ticks) {
+    std::vector<Pose> shown;
+    shown.reserve(static_cast<std::size_t>(std::max(ticks, 0)));
+    const bool falls = outcome_.response == ResponseKind::knockdown;
+    for (Tick tick = 1; tick <= ticks; ++tick) {
+      shown.push_back(falls ? fall_tick(tick) : stand_tick(tick));
+    }
+    return shown;
+  }
+
+ private:
+  void step(int k) {
+    if (k < steps_of_blow_) {
+      strike(ragdoll_, body_, frame_, 1.0f / static_cast<float>(steps_of_blow_));
+    }
+    ragdoll_.step();
+  }
+
+  // The clip in the canonical frame; without one, the cut action goes on.
+  Pose clip(Tick tick) const {
+    if (target_.empty()) return frame_.continued(tick);
+    const auto last = static_cast<Tick>(target_.size()) - 1;
+    return frame_.in(target_[static_cast<std::size_t>(std::clamp(tick, 0, last))]);
+  }
+
+  Pose aim(Tick tick) const {
+    const float share = smooth(static_cast<float>(tick) * kTickSeconds / kIntoClip);
+    if (share >= 1) return clip(tick);
+    return mix(frame_.continued(tick), clip(tick), share);
+  }
+
+  Pose stand_tick(Tick tick) {
+    const float now = static_cast<float>(tick) * kTickSeconds;
+    const float meet = smooth((now - kMeetFrom) / (kMeetBy - kMeetFrom));
+    if (meet >= 1) return frame_.out(clip(tick));
+    const Pose from = aim(tick - 1), to = aim(tick);
+    for (int half = 0; half < 2; ++half) {
+      const float at = now - kTickSeconds + static_cast<float>(half) * kRagdollStep;
+      ragdoll_.set_tone(standing_tone(at, tone_));
+      ragdoll_.set_servo(.05f, at < kReflex);
+      balance_.guide(ragdoll_, half == 0 ? from : mix(from, to, .5f), from, to);
+      step(2 * (tick - 1) + half);
+    }
+    Pose pose = ragdoll_.pose();
+    // The start pose was let down onto the ground: shown, that comes gradually.
+    pose.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
+    const Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
+    return frame_.out(mended(body_, met));
+  }
+
+  Tone fall_tone(float now) const {
+    if (outcome_.knockout) return whole_body(kLimpTone);
+    Tone tone = now < kProtect ? standing_tone(now, tone_) : falling_tone();
+    if (landed_ < 0) return tone;
+    const float gone = std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
+    for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
+    return tone;
+  }
+
+  void aim_fall(Tick tick, float now) {
+    if (now < kProtect && !outcome_.knockout) {
+      balance_.guide(ragdoll_, frame_.continued(tick - 1), frame_.continued(tick - 1),
+                     frame_.continued(tick));
+      return;
+    }
+    if (!protecting_) {
+      const Pose pose = ragdoll_.pose();
+      const Vec3 going = ragdoll_.center_of_mass_velocity();
+      const float facing = heading_of(pose.rotation[0]);
+      const Vec3 flat{going.x, 0, going.z};
+      const float way = glm::length(flat) > .05f ? yaw_of(flat) : frame_.in_yaw(outcome_.direction);
+      protective_ = outcome_.knockout ? pose : protective_pose(pose, wrapped_angle(way - facing));
+      protecting_ = true;
+      ragdoll_.set_servo(.10f, true);
+    }
+    ragdoll_.track(protective_, protective_, protective_, kTickSeconds);
+  }
+
+  Pose fall_tick(Tick tick) {
+    if (rested_) return *rested_;
+    const float now = static_cast<float>(tick) * kTickSeconds;
+    aim_fall(tick, now);
+    for (int half = 0; half < 2; ++half) {
+      ragdoll_.set_tone(fall_tone(now));
+      step(2 * (tick - 1) + half);
+    }
+    const Pose pose = ragdoll_.pose();
+    if (landed_ < 0 && trunk_down(body_, pose)) landed_ = now;
+    still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
+    Pose lifted = pose;
+    lifted.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
+    const Pose shown = frame_.out(mended(body_, lifted));
+    const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
+    if (over) rested_ = shown;
+    return shown;
+  }
+
+  const BodyModel& body_;
+  const ImpactOutcome& outcome_;
+  float tone_;
+  std::span<const Pose> target_;
+  ImpactFrame frame_;
+  Ragdoll ragdoll_;
+  Balance balance_;
+  int steps_of_blow_;
+  bool protecting_ = false;
+  Pose protective_;
+  float landed_ = -1;  // s: when the trunk met the ground; before that negative
+  float still_ = 0;    // s for which everything has been at rest
+  std::optional<Pose> rested_;
+};
+
+}  // namespace
+
+std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
+                                    const ImpactOutcome& outcome, std::span<const Pose> target,
+                                    Tick ticks) {
+  return Shown(body, input, outcome, target).run(ticks);
+}
+
+}  // namespace ringcraft
