@@ -140,6 +140,15 @@ void turn_to_hinges(const Skeleton& target, Clip& clip) {
     }
 }
 
+// Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on to
+// the knees.
+void calm_hips(Clip& clip) {
+  std::vector<Vec3> path;
+  for (const Pose& pose : clip.frames) path.push_back(pose.hips);
+  path = smoothed(path, 0.012f);
+  for (std::size_t i = 0; i < path.size(); ++i) clip.frames[i].hips = path[i];
+}
+
 // The height of the floor: where the balls of the planted feet stand, the median over both.
 float floor_height(const Skeleton& target, const Clip& clip) {
   std::vector<float> heights;
@@ -220,6 +229,7 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   turn_to_hinges(target, clip);
   const float floor = floor_height(target, clip);
   for (Pose& pose : clip.frames) pose.hips.y -= floor;
+  calm_hips(clip);
   clear_floor(target, clip);
   plant_feet(target, clip, settings);
   unroll_rotations(clip);

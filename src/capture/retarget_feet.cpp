@@ -10,6 +10,9 @@ namespace ringcraft {
 namespace {
 
 constexpr float kSoftShare = 0.97f;  // of a leg's length: beyond it its reach is eased
+constexpr float kFoldedShare =
+    0.225f;  // of a leg's length: hip to ankle when the knee is fully bent
+constexpr float kLargestShift = 0.12f;  // m by which the hips give way
 constexpr float kNearFloor =
     0.06f;  // m: a ball of the foot lower than this bends its toes to the floor
 
@@ -109,29 +112,41 @@ Vec3 ankle_at(const Skeleton& skeleton, Side side, const FootTrack& track, std::
   return track.ball[i] - track.foot[i] * skeleton.offset[index(toes(side))];
 }
 
-// Lets the hips sink, smoothly, where a planted leg is too short for its place.
-void sink_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Clip& clip) {
+// The least within `around` ticks where it is below zero, the most where it is above: a smoothed
+// track then still gives each moment what it needs.
+std::vector<float> widened(const std::vector<float>& needs, std::size_t around) {
+  const std::size_t count = needs.size();
+  std::vector<float> out(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = i >= around ? i - around : 0; k <= std::min(count - 1, i + around); ++k)
+      if (std::abs(needs[k]) > std::abs(out[i])) out[i] = needs[k];
+  return out;
+}
+
+// Moves the hips up or down, smoothly, where a planted leg is too short for its place, or folded
+// further than its knee goes.
+void fit_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Clip& clip) {
   const std::size_t count = clip.frames.size();
-  std::vector<float> sink(count);
-  const float reach = kSoftShare * skeleton.leg_length();
+  std::vector<float> rise(count);
+  const float most = kSoftShare * skeleton.leg_length();
+  const float least = kFoldedShare * skeleton.leg_length();
   for (std::size_t i = 0; i < count; ++i) {
     const WorldPose world = world_pose(skeleton, clip.frames[i]);
     for (const Side side : {Side::left, Side::right}) {
       if (!clip.contacts[i].of(side)) continue;
       const Vec3 ankle = ankle_at(skeleton, side, feet[static_cast<std::size_t>(side)], i);
       const Vec3 line = ankle - world.position[index(leg(side).root)];
-      const float ground = std::min(std::hypot(line.x, line.z), 0.95f * reach);
-      sink[i] = std::max(sink[i], -line.y - std::sqrt(reach * reach - ground * ground));
+      const float ground = std::min(std::hypot(line.x, line.z), 0.95f * most);
+      const float lowest = ground < least ? std::sqrt(least * least - ground * ground) : -1.0f;
+      const float highest = std::sqrt(most * most - ground * ground);
+      if (-line.y > highest)
+        rise[i] = std::max(std::min(rise[i], highest + line.y), -kLargestShift);
+      if (-line.y < lowest && rise[i] >= 0)
+        rise[i] = std::min(std::max(rise[i], lowest + line.y), kLargestShift);
     }
   }
-  constexpr std::size_t kAround =
-      8;  // ticks: the deepest within it, so that smoothing keeps the need
-  std::vector<float> deepest(count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t k = i >= kAround ? i - kAround : 0; k <= std::min(count - 1, i + kAround); ++k)
-      deepest[i] = std::max(deepest[i], std::min(sink[k], 0.12f));
-  const std::vector<float> smooth = smoothed(deepest, 0.04f);
-  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y -= smooth[i];
+  const std::vector<float> smooth = smoothed(widened(rise, 8), 0.04f);
+  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y += smooth[i];
 }
 
 }  // namespace
@@ -143,7 +158,7 @@ void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& se
     track = foot_track(skeleton, clip, side);
     pin(skeleton, clip, side, settings, track);
   }
-  sink_hips(skeleton, feet, clip);
+  fit_hips(skeleton, feet, clip);
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     Pose& pose = clip.frames[i];
     for (const Side side : {Side::left, Side::right}) {
