@@ -1,5 +1,6 @@
 #pragma once
-// Penetration between two bodies: capsules per part, closed-form segment distance, bounding spheres first.
+// Penetration between two bodies: capsules per part, closed-form segment distance, bounding spheres
+// first.
 
 #include "physics/body.h"
 
@@ -17,8 +18,8 @@ struct SegmentDistance {
 };
 SegmentDistance segment_distance(Vec3 a0, Vec3 a1, Vec3 b0, Vec3 b1);
 
-// Deepest penetration of any pair of parts. Parts whose bit is set in `excepted_a` / `excepted_b` (bit
-// index(part)) are left out: a strike's intended contact.
+// Deepest penetration of any pair of parts. Parts whose bit is set in `excepted_a` / `excepted_b`
+// (bit index(part)) are left out: a strike's intended contact.
 Penetration deepest_penetration(const BodyCapsules& a, const BodyCapsules& b,
                                 std::uint32_t excepted_a = 0, std::uint32_t excepted_b = 0);
 
