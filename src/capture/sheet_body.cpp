@@ -9,6 +9,11 @@ namespace {
 
 constexpr float kMostGirdle = radians(20);  // of the shoulder blade
 constexpr float kMostNeck = radians(75);    // head against chest
+constexpr float kMostWrist = radians(80);   // bent back on the floor
+constexpr float kMostAnkle = radians(50);   // given by the floor
+constexpr float kSoftReach = 0.93f;         // of a limb's length: beyond it the reach is eased
+constexpr float kClosestReach = 0.32f;      // elbow 37, knee 37 degrees: flesh meets flesh
+constexpr float kLongestReach = 0.995f;     // and never comes to this share (elbow 169 degrees)
 constexpr float kHandLength = 0.17f;        // m, wrist to finger tips
 constexpr float kHandThickness = 0.02f;     // m, half of it
 
@@ -46,28 +51,57 @@ void turn_girdle(const Skeleton& skeleton, Side side, Vec3 wrist, Pose& pose) {
   pose.rotation[index(girdle)] = from_rotation_vector(turn * (wanted / angle));
 }
 
+// Turn about `axis` that brings the end of `arm` (both world) to height `up` above its root, rad;
+// the nearest there is where none does.
+float turn_to_height(Vec3 arm, Vec3 axis, float up) {
+  const Vec3 across = glm::cross(axis, arm);  // where the end goes as the turn begins
+  const float amount = std::sqrt(arm.y * arm.y + across.y * across.y);
+  if (amount < 1e-5f) return 0;
+  const float least = std::asin(std::clamp(up / amount, -1.0f, 1.0f));
+  const float phase = std::atan2(arm.y, across.y);
+  return wrapped_angle(across.y >= 0 ? least - phase : kPi - least - phase);
+}
+
 // A hand that would reach through the floor bends back at the wrist and lies on it.
 void lay_on_floor(const Skeleton& skeleton, Side side, Pose& pose) {
   const Limb limb = arm(side);
   const WorldPose world = world_pose(skeleton, pose);
   const Quat hand = world.rotation[index(limb.end)];
-  const Vec3 along = hand * normalized_or(skeleton.offset[index(limb.end)], kLeft);
-  const float wrist = world.position[index(limb.end)].y;
-  const float least = std::clamp((kHandThickness - wrist) / kHandLength, -1.0f, 0.9f);
-  if (along.y >= least) return;
-  const Vec3 chest = world.rotation[index(Joint::upper_chest)] * kForward;
-  const Vec3 flat =
-      normalized_or(Vec3(along.x + 0.15f * chest.x, 0, along.z + 0.15f * chest.z), kForward);
-  const Vec3 lifted = flat * std::sqrt(1 - least * least) + kUp * least;
-  const Quat turned = rotation_between(along, lifted) * hand;
+  const Vec3 along = hand * normalized_or(skeleton.offset[index(limb.end)], kLeft) * kHandLength;
+  const float up = kHandThickness - world.position[index(limb.end)].y;
+  if (along.y >= up) return;
+  // Only backward, and less and less where the back of the hand does not look up.
+  const Vec3 axis = side == Side::left ? kForward : -kForward;
+  const float back_up = glm::cross(hand * axis, along).y / kHandLength;
+  const float turn = std::clamp(turn_to_height(along, hand * axis, up), 0.0f, kMostWrist);
   pose.rotation[index(limb.end)] =
-      glm::normalize(glm::inverse(world.rotation[index(limb.middle)]) * turned);
+      pose.rotation[index(limb.end)] * glm::angleAxis(turn * eased(0, 0.4f, back_up), axis);
+}
+
+// The same for the toes of a foot in the air; the turn from the asked rotation, rad.
+float toes_off_floor(const Skeleton& skeleton, Vec3 ankle, Quat rotation) {
+  const Vec3 ball = rotation * skeleton.offset[index(Joint::left_toes)];
+  const float up = skeleton.toe_height() - ankle.y;
+  if (ball.y >= up) return 0;
+  return std::clamp(turn_to_height(ball, rotation * kLeft, up), -kMostAnkle, kMostAnkle);
+}
+
+// Eases a target beyond most of a limb's length, so that elbow and knee never snap straight.
+Vec3 within_reach(Vec3 root, Vec3 target, float length) {
+  const float near = kClosestReach * length;
+  const float far = glm::distance(root, target);
+  if (far < near) return root + (target - root) * (near / std::max(far, 1e-4f));
+  const float soft = kSoftReach * length, room = (kLongestReach - kSoftReach) * length;
+  if (far <= soft) return target;
+  return root + (target - root) * ((soft + room * (1 - std::exp(-(far - soft) / room))) / far);
 }
 
 void set_arm(const Skeleton& skeleton, Side side, const ArmTarget& target, Pose& pose) {
   turn_girdle(skeleton, side, target.wrist, pose);
   const Limb limb = arm(side);
-  solve_limb(skeleton, limb, {target.wrist, target.pole, 0.985f}, pose);
+  const Vec3 shoulder = world_pose(skeleton, pose).position[index(limb.root)];
+  const Vec3 wrist = within_reach(shoulder, target.wrist, skeleton.arm_length());
+  solve_limb(skeleton, limb, {wrist, target.pole, 1.0f}, pose);
   // Either thumb turns inward about the body's left, which the rest pose's forearms lie along.
   pose.rotation[index(limb.end)] = glm::angleAxis(target.palm, kLeft);
   lay_on_floor(skeleton, side, pose);
@@ -81,14 +115,22 @@ void set_leg(const Skeleton& skeleton, Side side, const FootTarget& foot, Quat p
     pole =
         normalized_or(pelvis_forward, kForward) * 0.5f + yaw_rotation(foot.yaw) * kForward * 0.5f;
   }
-  const bool set = foot.freedom <= 0;
-  solve_limb(skeleton, limb, {ankle_of(skeleton, foot), pole, set ? 1.0f : 0.99f}, pose);
+  Vec3 ankle = ankle_of(skeleton, foot);
+  if (foot.freedom > 0) {
+    const Vec3 hip = world_pose(skeleton, pose).position[index(limb.root)];
+    ankle += (within_reach(hip, ankle, skeleton.leg_length()) - ankle) * foot.freedom;
+  }
+  solve_limb(skeleton, limb, {ankle, pole, 1.0f}, pose);
   const WorldPose world = world_pose(skeleton, pose);
   const Quat shin = world.rotation[index(limb.middle)];
   const Quat standing = foot_rotation(foot);
   const Quat hanging = shin * glm::angleAxis(foot.point, kLeft);
-  const Quat wanted = glm::slerp(standing, in_hemisphere_of(hanging, standing),
-                                 std::clamp(foot.freedom, 0.0f, 1.0f));
+  Quat wanted = glm::slerp(standing, in_hemisphere_of(hanging, standing),
+                           std::clamp(foot.freedom, 0.0f, 1.0f));
+  if (foot.freedom > 0) {
+    const Vec3 at = world.position[index(limb.end)];
+    wanted = wanted * glm::angleAxis(toes_off_floor(skeleton, at, wanted), kLeft);
+  }
   pose.rotation[index(limb.end)] = glm::normalize(glm::inverse(shin) * wanted);
   // The toes of a foot on its ball lie flat.
   const float flat = -foot.heel * (1 - std::clamp(foot.freedom, 0.0f, 1.0f));
