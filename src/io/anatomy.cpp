@@ -89,15 +89,15 @@ void add_trunk(Sculptor& s, const Build& build) {
   s.follow_girth(true);
   const float hip = build.female ? 0.012f : 0.0f, waist = build.female ? -0.013f : 0.0f;
   const float chest = build.female ? -0.010f : 0.0f;
-  s.ellipsoid(kHips, {0, 0.020f, -0.004f}, {0.152f + hip, 0.115f, 0.098f}, 0);
-  s.taper(kSpine, {0, -0.030f, 0.002f}, kChest, {0, 0.020f, 0.004f}, 0.126f + waist, 0.133f + waist,
-          0.06f, {1, 1, 0.74f});
+  s.ellipsoid(kHips, {0, 0.020f, -0.004f}, {0.146f + hip, 0.115f, 0.098f}, 0);
+  s.taper(kSpine, {0, -0.030f, 0.002f}, kChest, {0, 0.020f, 0.004f}, 0.119f + waist, 0.128f + waist,
+          0.06f, {1, 1, 0.76f});
   s.ellipsoid(kUpperChest, {0, -0.025f, 0}, {0.152f + chest, 0.185f, 0.106f}, 0.05f);
   s.taper(kUpperChest, {0, 0.105f, -0.018f}, kArm, {-0.045f, -0.004f, -0.012f}, 0.060f, 0.047f,
           0.05f);
   // Back: latissimus, shoulder blade, the two columns beside the spine.
-  s.taper(kUpperChest, {0.128f + chest, 0.050f, -0.030f}, kSpine, {0.088f + waist, 0.080f, -0.025f},
-          0.052f, 0.034f, 0.05f);
+  s.taper(kUpperChest, {0.132f + chest, 0.055f, -0.030f}, kSpine, {0.084f + waist, 0.080f, -0.025f},
+          0.056f, 0.034f, 0.05f);
   s.ellipsoid(kUpperChest, {0.082f, 0.045f, -0.072f}, {0.072f, 0.090f, 0.036f}, 0.04f, {0, 20, 0});
   s.taper(kUpperChest, {0.032f, 0.0f, -0.082f}, kHips, {0.032f, 0.070f, -0.075f}, 0.026f, 0.026f,
           0.03f);
@@ -105,11 +105,21 @@ void add_trunk(Sculptor& s, const Build& build) {
   if (build.female) {
     s.ellipsoid(kUpperChest, {0.070f, -0.010f, 0.078f}, {0.068f, 0.066f, 0.054f}, 0.03f);
   } else {
-    s.ellipsoid(kUpperChest, {0.078f, 0.040f, 0.072f}, {0.084f, 0.060f, 0.036f}, 0.018f,
-                {-12, 24, 8});
+    s.ellipsoid(kUpperChest, {0.078f, 0.052f, 0.066f}, {0.090f, 0.062f, 0.034f}, 0.026f,
+                {-16, 22, 10});
+    s.ellipsoid(kUpperChest, {0.086f, 0.022f, 0.078f}, {0.066f, 0.034f, 0.024f}, 0.020f,
+                {-4, 24, 6});
   }
-  s.taper(kSpine, {0.032f, -0.040f, 0.068f}, kChest, {0.034f, 0.060f, 0.076f}, 0.026f, 0.028f,
-          0.022f);
+  // The straight muscle in three rows beside the white line, the oblique beside it.
+  s.taper(kSpine, {0.030f, -0.060f, 0.062f}, kChest, {0.032f, 0.050f, 0.070f}, 0.026f, 0.026f,
+          0.02f);
+  if (!build.female && build.belly <= 0) {
+    for (const float row : {-0.048f, 0.006f, 0.058f}) {
+      s.ellipsoid(kChest, {0.032f, row, 0.080f}, {0.030f, 0.026f, 0.020f}, 0.016f, {-4, 12, 0});
+    }
+  }
+  s.taper(kSpine, {0.094f + waist, 0.020f, 0.036f}, kChest, {0.110f + waist, 0.030f, 0.040f},
+          0.032f, 0.032f, 0.03f);
   if (build.belly > 0) {
     s.ellipsoid(kSpine, {0, 0.010f, 0.030f}, {0.120f, 0.130f, 0.085f + build.belly}, 0.06f);
   }
@@ -197,7 +207,7 @@ void add_foot(Sculptor& s) {
 void add_head(Sculptor& s, const Build& build) {
   s.follow_girth(false);
   const float soft = build.female ? -0.004f : 0.0f;
-  s.ellipsoid(kHead, {0, 0.133f, -0.010f}, {0.076f, 0.095f, 0.097f}, 0.02f);
+  s.ellipsoid(kHead, {0, 0.133f, -0.009f}, {0.076f, 0.095f, 0.096f}, 0.02f);
   s.ellipsoid(kHead, {0, 0.085f, 0.036f}, {0.060f, 0.090f, 0.054f}, 0.03f);
   s.taper(kHead, {0.044f, 0.056f, -0.004f}, kHead, {0.008f, 0.021f, 0.068f}, 0.024f + soft,
           0.019f + soft, 0.03f);
@@ -207,14 +217,39 @@ void add_head(Sculptor& s, const Build& build) {
   s.hollow(kHead, {0.032f, 0.108f, 0.094f}, {0.018f, 0.010f, 0.016f}, 0.012f);
   s.taper(kHead, {0, 0.122f, 0.086f}, kHead, {0, 0.080f, 0.106f}, 0.0075f, 0.0115f, 0.012f);
   s.ellipsoid(kHead, {0.010f, 0.076f, 0.094f}, {0.0095f, 0.008f, 0.012f}, 0.008f);
+  s.ellipsoid(kHead, {0.038f, 0.062f, 0.046f}, {0.025f, 0.034f, 0.028f}, 0.02f);
   // Mouth: the swell around the teeth, lips, the line between them.
-  s.ellipsoid(kHead, {0, 0.050f, 0.076f}, {0.028f, 0.024f, 0.018f}, 0.02f);
-  s.taper(kHead, {0, 0.0535f, 0.0935f}, kHead, {0.021f, 0.050f, 0.084f}, 0.0055f, 0.003f, 0.006f);
-  s.taper(kHead, {0, 0.0430f, 0.0925f}, kHead, {0.018f, 0.046f, 0.083f}, 0.0060f, 0.003f, 0.006f);
-  s.hollow(kHead, {0, 0.0485f, 0.100f}, {0.024f, 0.0018f, 0.010f}, 0.003f);
+  s.ellipsoid(kHead, {0, 0.048f, 0.073f}, {0.028f, 0.024f, 0.017f}, 0.02f);
+  s.taper(kHead, {0, 0.0535f, 0.0890f}, kHead, {0.021f, 0.050f, 0.081f}, 0.0050f, 0.003f, 0.006f);
+  s.taper(kHead, {0, 0.0425f, 0.0880f}, kHead, {0.018f, 0.046f, 0.080f}, 0.0055f, 0.003f, 0.006f);
   // Ear.
   s.ellipsoid(kHead, {0.077f, 0.098f, -0.010f}, {0.008f, 0.031f, 0.018f}, 0.008f, {-12, 22, 0});
   s.hollow(kHead, {0.088f, 0.101f, -0.004f}, {0.007f, 0.017f, 0.009f}, 0.006f, {-12, 22, 0});
+}
+
+void add_shorts(Sculptor& s, const Build& build) {
+  s.follow_girth(true);
+  const float hip = build.female ? 0.012f : 0.0f, waist = build.female ? -0.010f : 0.0f;
+  s.ellipsoid(kHips, {0, 0.020f, -0.004f}, {0.156f + hip, 0.120f, 0.108f}, 0);
+  s.taper(kHips, {0, 0.060f, 0}, kSpine, {0, 0.040f, 0.002f}, 0.139f + waist, 0.133f + waist, 0.05f,
+          {1, 1, 0.79f});
+  s.ellipsoid(kHips, {0.074f + 0.5f * hip, -0.024f, -0.064f}, {0.090f, 0.094f, 0.078f}, 0.05f);
+  s.taper(kThigh, {0.002f, -0.030f, 0}, kThigh, {0.018f, -0.250f, 0.004f}, 0.094f, 0.104f, 0.05f);
+  if (build.belly > 0) {
+    s.ellipsoid(kSpine, {0, 0.0f, 0.030f}, {0.130f, 0.130f, 0.093f + build.belly}, 0.06f);
+  }
+  s.hollow(kThigh, {-0.093f, -0.300f, 0}, {0.014f, 0.160f, 0.200f}, 0.03f);
+}
+
+// A point of the face: the skin seen from the front at x, y off the head's joint, sunk by `sunk`
+// metres.
+Vec3 on_face(const Build& build, const DistanceField& skin, float x, float y, float sunk) {
+  const float s = build.scale;
+  const Vec3 head = build.rest.position[index(kHead)];
+  Vec3 point = head + s * Vec3{x, y, 0.14f};
+  for (int i = 0; i < 40; ++i) point.z -= std::clamp(0.8f * skin.at(point), -0.004f * s, 0.01f * s);
+  point.z -= sunk * s;
+  return point;
 }
 
 }  // namespace
@@ -248,17 +283,7 @@ DistanceField skin_field(const Build& build) {
 DistanceField shorts_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
-  s.follow_girth(true);
-  const float hip = build.female ? 0.012f : 0.0f, waist = build.female ? -0.010f : 0.0f;
-  s.ellipsoid(kHips, {0, 0.020f, -0.004f}, {0.164f + hip, 0.120f, 0.110f}, 0);
-  s.taper(kHips, {0, 0.060f, 0}, kSpine, {0, 0.040f, 0.002f}, 0.144f + waist, 0.137f + waist, 0.05f,
-          {1, 1, 0.76f});
-  s.ellipsoid(kHips, {0.074f + 0.5f * hip, -0.024f, -0.064f}, {0.090f, 0.094f, 0.078f}, 0.05f);
-  s.taper(kThigh, {0.006f, -0.030f, 0}, kThigh, {0.020f, -0.250f, 0.004f}, 0.100f, 0.112f, 0.05f);
-  if (build.belly > 0) {
-    s.ellipsoid(kSpine, {0, 0.0f, 0.030f}, {0.130f, 0.130f, 0.093f + build.belly}, 0.06f);
-  }
-  s.hollow(kThigh, {-0.093f, -0.250f, 0}, {0.014f, 0.150f, 0.200f}, 0.03f);
+  add_shorts(s, build);
   s.cut(kSpine, {0, 0.006f, 0}, {0, 1, 0}, 0.006f);
   s.cut(kThigh, {0, -0.220f, 0}, {0.25f, -1, 0}, 0.006f);
   return field;
@@ -267,15 +292,10 @@ DistanceField shorts_field(const Build& build) {
 DistanceField waistband_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
-  s.follow_girth(true);
-  const float waist = build.female ? -0.010f : 0.0f;
-  s.taper(kHips, {0, 0.060f, 0}, kSpine, {0, 0.040f, 0.002f}, 0.150f + waist, 0.143f + waist, 0,
-          {1, 1, 0.77f});
-  if (build.belly > 0) {
-    s.ellipsoid(kSpine, {0, 0.0f, 0.030f}, {0.134f, 0.134f, 0.097f + build.belly}, 0.06f);
-  }
-  s.cut(kSpine, {0, 0.020f, 0}, {0, 1, 0}, 0.008f);
-  s.cut(kSpine, {0, -0.030f, 0}, {0, -1, 0}, 0.008f);
+  add_shorts(s, build);
+  field.grow(0.004f * build.scale);
+  s.cut(kSpine, {0, 0.018f, 0}, {0, 1, 0}, 0.004f);
+  s.cut(kSpine, {0, -0.026f, 0}, {0, -1, 0}, 0.004f);
   return field;
 }
 
@@ -283,14 +303,16 @@ DistanceField top_field(const Build& build) {
   DistanceField field;
   if (!build.female) return field;
   Sculptor s(build, field);
+  add_trunk(s, build);
+  add_neck(s, build);
+  field.grow(0.005f * build.scale);
+  s.cut(kUpperChest, {0, -0.100f, 0}, {0, -1, 0}, 0.004f);
   s.follow_girth(true);
-  s.ellipsoid(kUpperChest, {0, -0.025f, 0}, {0.150f, 0.185f, 0.114f}, 0.05f);
-  s.ellipsoid(kUpperChest, {0.070f, -0.010f, 0.080f}, {0.076f, 0.074f, 0.061f}, 0.03f);
-  s.taper(kUpperChest, {0.126f, 0.040f, -0.030f}, kSpine, {0.080f, 0.080f, -0.025f}, 0.054f, 0.040f,
-          0.05f);
-  s.ellipsoid(kUpperChest, {0.082f, 0.045f, -0.072f}, {0.080f, 0.090f, 0.044f}, 0.04f, {0, 20, 0});
-  s.cut(kUpperChest, {0, 0.062f, 0}, {0, 1, 0.35f}, 0.006f);
-  s.cut(kUpperChest, {0, -0.095f, 0}, {0, -1, 0}, 0.006f);
+  // Armholes, neckline, back.
+  s.hollow(kArm, {-0.028f, 0.015f, 0}, {0.085f, 0.130f, 0.300f}, 0.004f);
+  s.hollow(kUpperChest, {0, 0.150f, 0.080f}, {0.064f, 0.105f, 0.110f}, 0.004f);
+  s.hollow(kUpperChest, {0, 0.170f, -0.090f}, {0.064f, 0.105f, 0.110f}, 0.004f);
+  s.hollow(kNeck, {0, 0.060f, -0.010f}, {0.070f, 0.090f, 0.075f}, 0.004f);
   return field;
 }
 
@@ -338,28 +360,52 @@ DistanceField hair_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
   s.follow_girth(false);
-  s.ellipsoid(kHead, {0, 0.134f, -0.012f}, {0.0805f, 0.0985f, 0.1005f}, 0.0f);
+  s.ellipsoid(kHead, {0, 0.136f, -0.010f}, {0.0795f, 0.0985f, 0.1000f}, 0.0f);
   if (build.female) {
     s.ellipsoid(kHead, {0, 0.150f, -0.118f}, {0.034f, 0.034f, 0.034f}, 0.02f);
   }
-  s.cut(kHead, {0, 0.182f, 0.066f}, {0, -0.155f, 0.140f}, 0.006f);
+  // The face, the skin around the ears, the nape.
+  s.hollow(kHead, {0, 0.085f, 0.085f}, {0.070f, 0.094f, 0.072f}, 0.006f, {-14, 0, 0});
+  s.hollow(kHead, {0.085f, 0.088f, 0.004f}, {0.030f, 0.036f, 0.026f}, 0.006f);
+  s.cut(kHead, {0, 0.062f, -0.060f}, {0, -1, 0.25f}, 0.004f);
   return field;
 }
 
-DistanceField brow_field(const Build& build) {
+DistanceField line_field(const Build& build, const DistanceField& skin) {
+  struct Point {
+    float x, y, radius;
+  };
+  using Line = std::vector<Point>;
+  const std::array<Line, 3> lines = {
+      // Brow, lashes of the upper lid, lips.
+      Line{{0.013f, 0.1235f, 0.0042f},
+           {0.024f, 0.1275f, 0.0044f},
+           {0.036f, 0.1290f, 0.0040f},
+           {0.048f, 0.1240f, 0.0030f}},
+      Line{{0.0190f, 0.1090f, 0.0018f},
+           {0.026f, 0.1138f, 0.0023f},
+           {0.032f, 0.1152f, 0.0024f},
+           {0.039f, 0.1132f, 0.0023f},
+           {0.0450f, 0.1090f, 0.0018f}},
+      Line{{0.000f, 0.0480f, 0.0026f}, {0.010f, 0.0485f, 0.0026f}, {0.022f, 0.0468f, 0.0022f}}};
+  constexpr float kSunk = 0.7f;  // of the radius: only the crest shows
   DistanceField field;
-  Sculptor s(build, field);
-  s.follow_girth(false);
-  s.taper(kHead, {0.014f, 0.1245f, 0.0945f}, kHead, {0.036f, 0.1290f, 0.0865f}, 0.0042f, 0.0040f,
-          0);
-  s.taper(kHead, {0.036f, 0.1290f, 0.0865f}, kHead, {0.049f, 0.1240f, 0.0740f}, 0.0040f, 0.0025f,
-          0.003f);
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      Shape shape;
+      shape.a = on_face(build, skin, line[i].x, line[i].y, kSunk * line[i].radius);
+      shape.b = on_face(build, skin, line[i + 1].x, line[i + 1].y, kSunk * line[i + 1].radius);
+      shape.radius_a = line[i].radius * build.scale;
+      shape.radius_b = line[i + 1].radius * build.scale;
+      field.add(shape);
+    }
+  }
   return field;
 }
 
-Eye eye_of(const Build& build) {
-  return {build.rest.position[index(kHead)] + build.scale * Vec3{0.0315f, 0.1080f, 0.0690f},
-          0.0125f * build.scale};
+Eye eye_of(const Build& build, const DistanceField& skin) {
+  const float radius = 0.0128f;
+  return {on_face(build, skin, 0.0320f, 0.1085f, 0.42f * radius), radius * build.scale};
 }
 
 }  // namespace ringcraft

@@ -26,13 +26,14 @@ DistanceField glove_field(const Build& build);
 DistanceField cuff_field(const Build& build);
 DistanceField anklet_field(const Build& build);
 DistanceField hair_field(const Build& build);
-DistanceField brow_field(const Build& build);
+// Brows, lashes and the line between the lips, laid on the face of `skin`.
+DistanceField line_field(const Build& build, const DistanceField& skin);
 
 // Centre and radius of the left eye's ball, m.
 struct Eye {
   Vec3 center{};
   float radius = 0;
 };
-Eye eye_of(const Build& build);
+Eye eye_of(const Build& build, const DistanceField& skin);
 
 }  // namespace ringcraft

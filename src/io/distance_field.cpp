@@ -80,6 +80,12 @@ void DistanceField::add(const Shape& shape) {
   shapes_.push_back(prepared);
 }
 
+void DistanceField::grow(float by) {
+  grown_ += by;
+  low_ -= Vec3(by);
+  high_ += Vec3(by);
+}
+
 float DistanceField::distance(const Prepared& prepared, Vec3 point) {
   const Shape& shape = prepared.shape;
   const Vec3 local = glm::conjugate(shape.turn) * (point - prepared.center);
@@ -102,10 +108,31 @@ float DistanceField::at(Vec3 point) const {
       field = smooth_min(field, distance(prepared, p), k);
     }
   }
+  field -= grown_;
   for (const Cut& cut : cuts_) {
     field = smooth_max(field, glm::dot(p - cut.point, cut.normal), cut.blend);
   }
   return field;
+}
+
+DistanceField DistanceField::near(Vec3 center, float radius) const {
+  DistanceField part;
+  part.cuts_ = cuts_;
+  part.grown_ = grown_;
+  part.low_ = low_;
+  part.high_ = high_;
+  const Vec3 p{std::abs(center.x), center.y, center.z};
+  // The field before the cuts is nowhere in the ball above this.
+  float highest = 1e3f;
+  for (const Prepared& prepared : shapes_) {
+    if (!prepared.shape.carve) highest = std::min(highest, distance(prepared, p) + radius);
+  }
+  for (const Prepared& prepared : shapes_) {
+    const float least = glm::length(p - prepared.center) - prepared.bound - radius;
+    const float reach = prepared.shape.carve ? 2.0f * radius : highest;
+    if (least < reach + prepared.shape.blend) part.shapes_.push_back(prepared);
+  }
+  return part;
 }
 
 Vec3 DistanceField::normal(Vec3 p, float step) const {

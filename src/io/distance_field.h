@@ -33,9 +33,13 @@ class DistanceField {
  public:
   void add(const Shape& shape);
   void cut(const Cut& cut) { cuts_.push_back(cut); }
+  // Moves the surface of all shapes out by so many metres; cuts stay where they are.
+  void grow(float by);
 
   // Signed distance, m, negative inside. Exact on the surface, a bound elsewhere.
   float at(Vec3 point) const;
+  // The same field within `radius` metres of `center`, without the shapes that do not reach there.
+  DistanceField near(Vec3 center, float radius) const;
   // Unit normal from central differences over `step` metres.
   Vec3 normal(Vec3 point, float step) const;
   bool empty() const { return shapes_.empty(); }
@@ -53,6 +57,7 @@ class DistanceField {
 
   std::vector<Prepared> shapes_;
   std::vector<Cut> cuts_;
+  float grown_ = 0;  // m
   Vec3 low_{}, high_{};
 };
 

@@ -26,7 +26,7 @@ float openness(const DistanceField& field, Vec3 point, Vec3 normal, float reach)
   const float near = field.at(point + 0.4f * reach * normal) / (0.4f * reach);
   const float far = field.at(point + reach * normal) / reach;
   const float open = std::clamp(0.5f * (near + far), 0.0f, 1.0f);
-  return 0.45f + 0.55f * open;
+  return 0.58f + 0.42f * open;
 }
 
 MannequinPiece grown(const Build& build, const DistanceField& field, const GridPlan& plan,
@@ -76,13 +76,21 @@ void tint_skin(const Build& build, MannequinPiece& skin) {
   }
 }
 
-// A ball of `rings` by twice as many segments.
-void add_ball(MannequinPiece& piece, Vec3 center, float radius, int rings, Joint joint) {
+// Draws the skin in under what it wears, so that nothing shines through in a bent pose.
+void draw_in(MannequinPiece& skin, const DistanceField& worn, float depth) {
+  for (std::size_t i = 0; i < skin.position.size(); ++i) {
+    const float under = std::clamp(-worn.at(skin.position[i]) / depth, 0.0f, 1.0f);
+    skin.position[i] -= under * depth * skin.normal[i];
+  }
+}
+
+// A ball of `rings` by twice as many segments, with a radius along each axis.
+void add_ball(MannequinPiece& piece, Vec3 center, Vec3 radii, int rings, Joint joint) {
   const auto first = static_cast<std::uint32_t>(piece.position.size());
   const int segments = 2 * rings;
   const auto add = [&](Vec3 normal) {
-    piece.position.push_back(center + radius * normal);
-    piece.normal.push_back(normal);
+    piece.position.push_back(center + radii * normal);
+    piece.normal.push_back(glm::normalize(normal / radii));
     piece.shade.push_back(grey(1));
     piece.weights.push_back(rigid_weights(joint));
   };
@@ -114,17 +122,16 @@ void add_ball(MannequinPiece& piece, Vec3 center, float radius, int rings, Joint
   }
 }
 
-// Both eyes: the white, and the iris that stands a little out of it.
-void add_eyes(const Build& build, Mannequin& mannequin) {
-  const Eye eye = eye_of(build);
+// Both eyes: the white between the lids, and the iris that stands a little out of it.
+void add_eyes(const Eye& eye, Mannequin& mannequin) {
   MannequinPiece white, iris;
   white.region = Region::eye_white;
   iris.region = Region::iris;
   for (const float side : {1.0f, -1.0f}) {
     const Vec3 center{side * eye.center.x, eye.center.y, eye.center.z};
-    add_ball(white, center, eye.radius, 8, Joint::head);
-    const Vec3 ahead = glm::normalize(Vec3{side * 0.06f, -0.02f, 1});
-    add_ball(iris, center + 0.58f * eye.radius * ahead, 0.52f * eye.radius, 6, Joint::head);
+    add_ball(white, center, eye.radius * Vec3{1, 0.50f, 0.62f}, 8, Joint::head);
+    const Vec3 front = center + eye.radius * Vec3{-0.04f * side, 0.04f, 0.32f};
+    add_ball(iris, front, eye.radius * Vec3{0.46f, 0.47f, 0.36f}, 6, Joint::head);
   }
   mannequin.pieces.push_back(std::move(white));
   mannequin.pieces.push_back(std::move(iris));
@@ -152,11 +159,11 @@ GridPlan skin_plan(const Build& build) {
   const Vec3 head = build.rest.position[index(Joint::head)];
   const Vec3 ankle = build.rest.position[index(Joint::left_foot)];
   GridPlan plan;
-  plan.spacing = 0.0145f * s;
-  plan.x = {{0, 0.06f * s, 0.0075f * s}, {0.06f * s, ankle.x + 0.06f * s, 0.010f * s}};
-  plan.y = {{-1, ankle.y - 0.020f * s, 0.009f * s},
-            {head.y + 0.005f * s, head.y + 0.150f * s, 0.0075f * s},
-            {head.y + 0.150f * s, 3, 0.010f * s}};
+  plan.spacing = 0.0155f * s;
+  plan.x = {{0, 0.06f * s, 0.0085f * s}, {0.06f * s, ankle.x + 0.06f * s, 0.0115f * s}};
+  plan.y = {{-1, ankle.y - 0.020f * s, 0.010f * s},
+            {head.y + 0.005f * s, head.y + 0.150f * s, 0.008f * s},
+            {head.y + 0.150f * s, 3, 0.012f * s}};
   plan.z = {{head.z + 0.05f * s, head.z + 0.115f * s, 0.010f * s}};
   return plan;
 }
@@ -178,8 +185,12 @@ Mannequin make_mannequin(const BodyModel& body) {
     return plan;
   };
   Mannequin mannequin;
-  MannequinPiece skin = grown(build, skin_field(build), skin_plan(build), Region::skin);
+  const DistanceField body_field = skin_field(build);
+  MannequinPiece skin = grown(build, body_field, skin_plan(build), Region::skin);
   tint_skin(build, skin);
+  draw_in(skin, shorts_field(build), 0.010f * s);
+  draw_in(skin, hair_field(build), 0.004f * s);
+  draw_in(skin, anklet_field(build), 0.004f * s);
   add_piece(mannequin, std::move(skin));
   add_piece(mannequin, grown(build, shorts_field(build), even(0.017f), Region::shorts));
   add_piece(mannequin, grown(build, top_field(build), even(0.014f), Region::shorts));
@@ -187,9 +198,9 @@ Mannequin make_mannequin(const BodyModel& body) {
   add_piece(mannequin, grown(build, waistband_field(build), even(0.014f), Region::trim));
   add_piece(mannequin, grown(build, cuff_field(build), even(0.012f), Region::trim));
   add_piece(mannequin, grown(build, anklet_field(build), even(0.012f), Region::trim));
-  add_piece(mannequin, grown(build, hair_field(build), even(0.011f), Region::hair));
-  add_piece(mannequin, grown(build, brow_field(build), even(0.0035f), Region::hair));
-  add_eyes(build, mannequin);
+  add_piece(mannequin, grown(build, hair_field(build), even(0.0095f), Region::hair));
+  add_piece(mannequin, grown(build, line_field(build, body_field), even(0.0025f), Region::hair));
+  add_eyes(eye_of(build, body_field), mannequin);
   return mannequin;
 }
 

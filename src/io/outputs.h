@@ -16,9 +16,9 @@ namespace ringcraft {
 struct FighterLook {
   std::string name;
   BodyModel body;
-  Vec3 shorts{0.7f, 0.1f, 0.1f};  // linear RGB
-  Vec3 gloves{0.7f, 0.1f, 0.1f};
-  Vec3 skin{0.55f, 0.36f, 0.26f};
+  Vec3 shorts{0.42f, 0.014f, 0.018f};  // linear RGB
+  Vec3 gloves{0.42f, 0.014f, 0.018f};
+  Vec3 skin{0.46f, 0.26f, 0.175f};
 };
 
 struct GlbSettings {

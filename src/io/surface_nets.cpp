@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace ringcraft {
 
@@ -37,6 +38,23 @@ std::vector<float> symmetric_lines(float high, float spacing, const std::vector<
   for (auto at = right.rbegin(); at != right.rend(); ++at) lines.push_back(-*at);
   lines.insert(lines.end(), right.begin(), right.end());
   return lines;
+}
+
+// The point with the least squared distance to the planes through `points`, held near their mean
+// where the planes leave it open.
+Vec3 nearest_to_planes(std::span<const Vec3> points, std::span<const Vec3> normals) {
+  Vec3 mean{};
+  for (const Vec3& point : points) mean += point;
+  mean /= static_cast<float>(points.size());
+  constexpr float kHold = 0.05f;
+  glm::mat3 matrix(kHold);
+  Vec3 right{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 n = normals[i];
+    matrix += glm::outerProduct(n, n);
+    right += n * glm::dot(n, points[i] - mean);
+  }
+  return mean + glm::inverse(matrix) * right;
 }
 
 class Net {
@@ -79,12 +97,20 @@ class Net {
   // Values at the grid's points. A block whose centre is far from the surface gets the centre's
   // value.
   void sample() {
+    for (int axis = 0; axis < 3; ++axis) blocks_[axis] = (size_[axis] + kBlock - 1) / kBlock;
+    parts_.resize(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2]);
     for (int z = 0; z < size_[2]; z += kBlock) {
       for (int y = 0; y < size_[1]; y += kBlock) {
         for (int x = 0; x < size_[0]; x += kBlock) sample_block({x, y, z});
       }
     }
   }
+  // The field near the block of a cell.
+  DistanceField& part(Cell cell) {
+    const auto block = [&](int axis) { return static_cast<std::size_t>(cell[axis] / kBlock); };
+    return parts_[(block(2) * blocks_[1] + block(1)) * blocks_[0] + block(0)];
+  }
+
   void sample_block(Cell first) {
     Cell last;
     for (int axis = 0; axis < 3; ++axis) {
@@ -95,20 +121,23 @@ class Net {
     // Twice the half diagonal: the field is a bound, and its value may grow faster than the
     // distance.
     const bool near = std::abs(middle) < glm::length(high - low) + 0.01f;
+    if (near) part(first) = field_.near(0.5f * (low + high), glm::length(high - low));
+    const DistanceField& local = part(first);
     for (int z = first[2]; z <= last[2]; ++z) {
       for (int y = first[1]; y <= last[1]; ++y) {
         for (int x = first[0]; x <= last[0]; ++x) {
-          values_[index({x, y, z})] = near ? field_.at(corner({x, y, z})) : middle;
+          values_[index({x, y, z})] = near ? local.at(corner({x, y, z})) : middle;
         }
       }
     }
   }
 
-  // A vertex where the surface crosses the cell: the mean of the edge crossings, then two steps
-  // onto the surface that may not leave the cell.
+  // A vertex where the surface crosses the cell: nearest to the tangent planes of all edge
+  // crossings, so that hems stay straight (dual contouring, Ju 2002), kept inside the cell.
   void place_vertex(Cell cell) {
-    Vec3 sum{};
-    int crossings = 0;
+    const DistanceField& local = part(cell);
+    std::array<Vec3, 12> crossing, normal;
+    std::size_t count = 0;
     for (int edge = 0; edge < 12; ++edge) {
       const int axis = edge / 4;
       Cell a = cell;
@@ -116,22 +145,32 @@ class Net {
       a[(axis + 2) % 3] += (edge >> 1) & 1;
       Cell b = a;
       ++b[axis];
-      const float va = values_[index(a)], vb = values_[index(b)];
-      if ((va < 0) == (vb < 0)) continue;
-      const float share = va / (va - vb);
-      sum += corner(a) + share * (corner(b) - corner(a));
-      ++crossings;
+      if ((values_[index(a)] < 0) == (values_[index(b)] < 0)) continue;
+      crossing[count] = crossing_of(local, a, b);
+      normal[count] = local.normal(crossing[count], 0.0005f);
+      ++count;
     }
-    if (crossings == 0) return;
-    Vec3 point = sum / static_cast<float>(crossings);
+    if (count == 0) return;
     const Vec3 low = corner(cell), high = corner({cell[0] + 1, cell[1] + 1, cell[2] + 1});
-    const float step = 0.1f * (high.x - low.x);
-    for (int i = 0; i < 2; ++i) {
-      point = glm::clamp(point - field_.at(point) * field_.normal(point, step), low, high);
-    }
+    const Vec3 point =
+        glm::clamp(nearest_to_planes({crossing.data(), count}, {normal.data(), count}), low, high);
     vertex_[index(cell)] = static_cast<int>(mesh_.position.size());
     mesh_.position.push_back(point);
-    mesh_.normal.push_back(field_.normal(point, 0.003f));
+    mesh_.normal.push_back(local.normal(point, 0.003f));
+  }
+
+  // Where the surface crosses the grid edge: two steps of the false position.
+  Vec3 crossing_of(const DistanceField& local, Cell from, Cell to) const {
+    Vec3 a = corner(from), b = corner(to);
+    float va = values_[index(from)], vb = values_[index(to)];
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 middle = a + va / (va - vb) * (b - a);
+      const float value = local.at(middle);
+      if (value == 0) return middle;
+      ((value < 0) == (va < 0) ? a : b) = middle;
+      ((value < 0) == (va < 0) ? va : vb) = value;
+    }
+    return a + va / (va - vb) * (b - a);
   }
 
   // The quad around the grid edge from `point` along `axis`, when the surface crosses it.
@@ -163,6 +202,8 @@ class Net {
   std::array<std::vector<float>, 3> lines_;
   std::array<int, 3> size_{};
   std::vector<float> values_;
+  std::array<int, 3> blocks_{};
+  std::vector<DistanceField> parts_;  // of the field, one a block that the surface crosses
   std::vector<int> vertex_;
   SurfaceMesh mesh_;
 };

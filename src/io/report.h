@@ -1,0 +1,47 @@
+#pragma once
+// report.json and timing.json of a fight (design section 8).
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fight/timeline.h"
+#include "io/outputs.h"
+
+namespace ringcraft {
+
+// What a timeline does not know of its run.
+struct RunFacts {
+  struct Contestant {
+    std::string style;
+    double horizon_s = 0;
+  };
+  std::string version = RINGCRAFT_VERSION;
+  std::string scene;
+  std::uint64_t seed = 0;
+  std::vector<Contestant> contestants;  // one a fighter
+  std::uint64_t memo_hits = 0, memo_misses = 0;
+  std::uint64_t impulse_steps = 0;  // in all: committed, and first-time in the tree
+  bool interrupted = false;         // the report covers what was finished
+};
+
+// What the clock said.
+struct ClockFacts {
+  double wall_s = 0;
+  int threads = 1;
+  std::vector<double> decision_ms, impulse_step_us;
+};
+
+// Every field of design section 8, the same for the same fight. A fighter's recovery_steps,
+// knockdowns and knockouts are those it suffered; hits_taken are clean ones; foreseen_agreement is
+// the share of committed contacts whose response the attacker's plan had foreseen.
+nlohmann::json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
+                           const MotionLibrary& library, const RunFacts& facts);
+
+// The one output that differs from run to run.
+nlohmann::json timing_json(const Timeline& timeline, const ClockFacts& clock,
+                           const std::string& version = RINGCRAFT_VERSION);
+
+}  // namespace ringcraft
