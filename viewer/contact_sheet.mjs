@@ -1,7 +1,7 @@
 // Many frames of a fight in one picture, drawn in one go by the page itself:
 //   node contact_sheet.mjs FIGHT_HTML OUT.png [--times 0.5,1,1.5 | --every S | --events hit,knockdown]
 //        [--from S] [--to S] [--camera side|follow|front|top|ring] [--size 320x240] [--columns N]
-//        [--overlays capsules,skeleton] [--shadows]
+//        [--zoom 1.5] [--overlays capsules,skeleton] [--shadows]
 import { existsSync } from 'node:fs';
 import { mkdir, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -11,7 +11,7 @@ import { launch } from './browser.mjs';
 
 const MOST_FRAMES = 400;
 const USAGE = 'usage: node contact_sheet.mjs FIGHT_HTML OUT.png [--times a,b,c | --every S | --events hit,block] [--from S] [--to S] ' +
-  '[--camera side|follow|front|top|ring] [--size 320x240] [--columns N] [--overlays a,b] [--shadows]';
+  '[--camera side|follow|front|top|ring] [--zoom F] [--size 320x240] [--columns N] [--overlays a,b] [--shadows]';
 
 function fail(message) {
   console.error(message);
@@ -26,7 +26,7 @@ function options() {
       options: {
         times: { type: 'string' }, every: { type: 'string' }, events: { type: 'string' }, from: { type: 'string' },
         to: { type: 'string' }, camera: { type: 'string', default: 'side' }, size: { type: 'string', default: '320x240' },
-        columns: { type: 'string' }, overlays: { type: 'string' }, shadows: { type: 'boolean', default: false },
+        columns: { type: 'string' }, zoom: { type: 'string', default: '1' }, overlays: { type: 'string' }, shadows: { type: 'boolean', default: false },
       },
     });
   } catch (error) {
@@ -37,7 +37,7 @@ function options() {
   if (!existsSync(positionals[0])) fail(`${positionals[0]}: no such file; make it with \`ringcraft fight SCENE\``);
   const size = /^(\d{2,4})x(\d{2,4})$/.exec(values.size);
   if (!size) fail(`--size ${values.size}: give it as 320x240`);
-  for (const name of ['every', 'from', 'to', 'columns']) {
+  for (const name of ['every', 'from', 'to', 'columns', 'zoom']) {
     if (values[name] !== undefined && !(Number(values[name]) >= (name === 'from' ? 0 : 1e-3))) fail(`--${name} ${values[name]}: not a positive number`);
   }
   const times = values.times?.split(',').map(Number);
@@ -82,7 +82,7 @@ try {
   if (!times.length) throw new Error('no frame to draw: the fight has no such event or time');
   const url = await page.evaluate((o) => window.ringcraft.contactSheet(o), {
     times, camera: told.camera, width: told.width, height: told.height, shadows: told.shadows,
-    columns: told.columns ? Number(told.columns) : undefined, overlays: told.overlays?.split(',') ?? [],
+    columns: told.columns ? Number(told.columns) : told.events ? 4 : undefined, zoom: Number(told.zoom), overlays: told.overlays?.split(',') ?? [],
   });
   await mkdir(path.dirname(path.resolve(told.out)), { recursive: true });
   await writeFile(told.out, Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));

@@ -1,12 +1,13 @@
 // `window.ringcraft`: what tests, contact sheets and other pages may ask of this one.
 
 // Draws the fight at many times in one go, small and into one picture, each labelled with its time.
-async function contactSheet(page, { times, camera = 'side', width = 320, height = 240, columns, shadows = false, overlays = [] }) {
+async function contactSheet(page, { times, camera = 'side', width = 320, height = 240, columns, shadows = false, overlays = [], zoom = 1 }) {
   const { stage, cameras } = page;
   page.held = true;
   const before = { camera: cameras.name, time: page.player.time, on: page.overlays.names().filter((n) => page.overlays.on(n)) };
   stage.setShadows(shadows);
   stage.resize(width, height, 1);
+  stage.zoom(zoom);
   for (const name of page.overlays.names()) page.overlays.set(name, name === 'ropes' || overlays.includes(name));
   // A canvas may be 16384 pixels high.
   const fewest = Math.ceil((times.length * height) / 16000);
@@ -24,8 +25,8 @@ async function contactSheet(page, { times, camera = 'side', width = 320, height 
     if (i === 0 || camera !== 'follow') cameras.set(camera);
     page.drawStage(t);
     g.drawImage(stage.canvas, x, y, width, height);
-    const told = page.story.events.findLast((e) => Math.abs(e.t - t) < 0.04 && !['decision', 'strike'].includes(e.type));
-    const words = `${t.toFixed(2)} s${told ? `  ${told.type}` : ''}`;
+    const told = page.story.events.filter((e) => Math.abs(e.t - t) < 0.03 && !['decision', 'strike'].includes(e.type));
+    const words = `${t.toFixed(2)} s  ${[...new Set(told.map((e) => e.type))].join(', ')}`.trim();
     g.fillStyle = 'rgba(0,0,0,.55)';
     g.fillRect(x, y, g.measureText(words).width + 12, 22);
     g.fillStyle = '#fff';
@@ -35,6 +36,7 @@ async function contactSheet(page, { times, camera = 'side', width = 320, height 
   });
   const url = sheet.toDataURL('image/png');
   page.held = false;
+  stage.zoom(1);
   stage.setShadows(true);
   for (const name of page.overlays.names()) page.overlays.set(name, before.on.includes(name));
   page.fit();

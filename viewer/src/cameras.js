@@ -10,6 +10,7 @@ export const CAMERAS = {
   ring: 'Ring',
   orbit: 'Orbit',
 };
+const UP = new Vector3(0, 1, 0);
 const LOOK = 0.95;  // m: height of the point looked at when all stand
 
 export class Cameras {
@@ -31,6 +32,7 @@ export class Cameras {
       if (this.name !== 'orbit' && this.name !== 'follow') this.set('orbit', true);
     });
     this.target = new Vector3(0, LOOK, 0);
+    this.turned = 0;
   }
 
   // Metres from the target at which `width` metres across and a standing body fit the picture.
@@ -67,13 +69,20 @@ export class Cameras {
   // Three quarters from a side, the first fighter at the left.
   place(t) {
     const centre = this.aim(t);
-    const axis = this.cast.axis(t);
-    const from = new Vector3(-axis.z, 0, axis.x).applyAxisAngle(new Vector3(0, 1, 0), -0.38);
+    const axis = this.cast.axis(t, 1);
+    const from = new Vector3(-axis.z, 0, axis.x).applyAxisAngle(UP, -0.38);
     this.stage.camera.position.copy(centre).addScaledVector(from, this.distance(this.spread(t)) * 1.12);
     this.stage.camera.position.y = centre.y + 0.75;
     this.target.copy(centre);
+    this.turned = this.bearing(t);
     this.controls.target.copy(centre);
     this.controls.update();
+  }
+
+  // Angle of the fighters' axis about the vertical, rad, calm.
+  bearing(t) {
+    const axis = this.cast.axis(t, 1);
+    return Math.atan2(axis.x, axis.z);
   }
 
   // Puts the camera where the chosen view has it at time t.
@@ -84,10 +93,13 @@ export class Cameras {
     const side = new Vector3(-axis.z, 0, axis.x);  // seen from here the first fighter stands at the left
     const away = this.distance(this.spread(t));
     if (this.name === 'follow') {
-      const moved = centre.clone().sub(this.target);
-      camera.position.add(moved);
-      this.controls.target.add(moved);
+      // Goes along and turns along: the fighters' axis stays as it lay in the picture.
+      const bearing = this.bearing(t);
+      const offset = camera.position.clone().sub(this.controls.target).applyAxisAngle(UP, bearing - this.turned);
+      this.controls.target.add(centre.clone().sub(this.target));
+      camera.position.copy(this.controls.target).add(offset);
       this.target.copy(centre);
+      this.turned = bearing;
     } else if (this.name === 'side') {
       this.look(centre, side.multiplyScalar(away), 0.12);
     } else if (this.name === 'front') {

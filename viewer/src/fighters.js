@@ -128,10 +128,10 @@ export class Cast {
   }
 
   // Several frames at once: the shown pose is put back only once.
-  warm(first, last) {
+  warm(frames) {
     const shown = this.time;
     this.time = -1;
-    for (let f = first; f <= last; ++f) this.at(f);
+    for (const f of frames) this.at(f);
     if (shown >= 0) this.pose(shown);
   }
 
@@ -139,20 +139,25 @@ export class Cast {
   centre(t) {
     const f = Math.round(t * this.rate);
     const reach = Math.round(0.4 * this.rate);
-    this.warm(Math.max(0, f - reach), Math.min(this.frames - 1, f + reach));
+    const frames = Array.from({ length: 2 * reach + 1 }, (_, k) => f - reach + k);
+    this.warm(frames);
     const sum = new Vector3();
-    const count = (2 * reach + 1) * this.fighters.length;
-    for (let k = -reach; k <= reach; ++k) for (const fighter of this.at(f + k)) sum.add(fighter.hips);
-    return sum.multiplyScalar(1 / count);
+    for (const g of frames) for (const fighter of this.at(g)) sum.add(fighter.hips);
+    return sum.multiplyScalar(1 / (frames.length * this.fighters.length));
   }
 
-  // From the first fighter to the second, on the ground, smoothed alike; unit length.
-  axis(t) {
+  // From the first fighter to the second on the ground, unit length; mean over `reach` seconds to both sides.
+  axis(t, reach = 0.4) {
     const f = Math.round(t * this.rate);
+    const span = Math.round(reach * this.rate);
+    const step = Math.max(1, Math.round(span / 8));
     const sum = new Vector3();
     if (this.fighters.length > 1) {
-      for (let k = -24; k <= 24; k += 4) {
-        const [a, b] = this.at(f + k);
+      const missing = [];
+      for (let k = -8 * step; k <= 8 * step; k += step) missing.push(f + k);
+      this.warm(missing);
+      for (const g of missing) {
+        const [a, b] = this.at(g);
         sum.add(b.hips).sub(a.hips);
       }
     }

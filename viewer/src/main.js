@@ -24,7 +24,7 @@ const icon = (name) => `<svg viewBox="0 0 24 24" aria-hidden="true">${ICONS[name
 const KEYS = [
   ['Space', 'play or pause'], [', and .', 'one frame back, one frame on'], ['← and →', 'half a second back, on'],
   ['N and B', 'next event, event before'], ['Home and End', 'to the start, to the end'], ['[ and ]', 'slower, faster'],
-  ['L', 'loop'], ['F S R T O', 'camera: follow, side, ring, top, orbit'], ['1 to 6', 'overlays'], ['P', 'side panel'],
+  ['L', 'loop'], ['F S V T R O', 'camera: follow, side, front, top, ring, orbit'], ['1 to 6', 'overlays'], ['P', 'side panel'],
   ['wheel on the timeline', 'zoom; double click shows all'],
 ];
 
@@ -106,7 +106,7 @@ class Page {
 
   makeBoard() {
     $('board').innerHTML = this.cast.fighters.map((fighter, i) =>
-      `<div class="fighter${i % 2 ? ' right' : ''}" style="--c:${fighter.colour}"><div class="who"><b>${escapeHtml(fighter.name)}</b><span class="action"></span></div>
+      `<div class="fighter${i === 1 && this.cast.fighters.length === 2 ? ' right' : ''}" style="--c:${fighter.colour}"><div class="who"><b>${escapeHtml(fighter.name)}</b><span class="action"></span></div>
        <div class="health"><i class="late"></i><i class="now"></i></div><div class="score"></div></div>`).join('');
     this.boardRows = [...$('board').children].map((root) => ({
       action: root.querySelector('.action'), now: root.querySelector('.now'), late: root.querySelector('.late'),
@@ -172,6 +172,7 @@ class Page {
       b: () => this.jumpBy(-1),
       f: () => this.cameras.set('follow'),
       s: () => this.cameras.set('side'),
+      v: () => this.cameras.set('front'),
       r: () => this.cameras.set('ring'),
       t: () => this.cameras.set('top'),
       o: () => this.cameras.set('orbit', true),
@@ -319,6 +320,7 @@ class Page {
 
 function fail(error) {
   const lost = /webgl/i.test(String(error?.message));
+  document.body.classList.add('failed');
   $('message').hidden = false;
   $('message').textContent = lost
     ? 'This browser shows no WebGL picture. Turn on hardware acceleration or open the page in another browser.'

@@ -192,7 +192,7 @@ class Trails {
 
   update(t, camera) {
     const f = t * this.cast.rate;
-    this.cast.warm(Math.max(0, Math.floor(f) - this.count - 1), Math.min(this.cast.frames - 1, Math.ceil(f)));
+    this.cast.warm(Array.from({ length: this.count }, (_, k) => Math.max(0, Math.ceil(f) - 1 - k)));
     for (const { fighter, joint, mesh } of this.ribbons) {
       const path = [fighter.position(joint) ?? new Vector3()];
       for (let k = 0; k < this.count; ++k) path.push(this.cast.at(Math.max(0, Math.ceil(f) - 1 - k))[fighter.index][joint]);

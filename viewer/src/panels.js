@@ -10,6 +10,12 @@ const PRUNED = {
 };
 const FILTERS = ['hit', 'block', 'miss', 'knockdown', 'response', 'getup', 'strike', 'decision'];
 
+// "mean_impulse_Ns" -> "mean impulse [N·s]"
+const UNITS = { s: 's', ms: 'ms', us: 'µs', m: 'm', Ns: 'N·s', kg: 'kg', mps: 'm/s', rad: 'rad' };
+function label(key) {
+  const [, name, unit] = /^(.+)_([A-Za-z]+)$/.exec(key) ?? [];
+  return unit in UNITS ? `${plain(name)} [${UNITS[unit]}]` : plain(key);
+}
 const count = (value) => (Number.isFinite(value) ? value.toLocaleString('en-US') : '–');
 const points = (value) => (Number.isFinite(value) ? `${value >= 0 ? '+' : '−'}${Math.abs(value).toFixed(2)}` : '–');
 
@@ -140,15 +146,14 @@ export class Panels {
       if (value && typeof value === 'object') {
         rows.push(`<tr class="group"><th colspan="2" style="padding-left:${depth * 12}px">${escapeHtml(name)}</th></tr>`);
         for (const [key, inner] of Object.entries(value)) {
-          const label = Array.isArray(value) ? inner?.name ?? `${Number(key) + 1}` : plain(key);
-          walk(inner, label, depth + 1);
+          walk(inner, Array.isArray(value) ? inner?.name ?? `${Number(key) + 1}` : label(key), depth + 1);
         }
       } else {
         const shown = typeof value === 'number' ? String(Math.abs(value) < 1e9 ? Number(value.toPrecision(6)) : value) : String(value);
         rows.push(`<tr><th style="padding-left:${depth * 12}px">${escapeHtml(name)}</th><td>${escapeHtml(shown)}</td></tr>`);
       }
     };
-    for (const [key, value] of Object.entries(this.report ?? {})) walk(value, plain(key), 0);
+    for (const [key, value] of Object.entries(this.report ?? {})) walk(value, label(key), 0);
     document.getElementById('panel-report').innerHTML = rows.length ? `<table class="report">${rows.join('')}</table>` : '<p class="none">The page holds no report.</p>';
   }
 

@@ -82,6 +82,11 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
+  zoom(factor) {
+    this.camera.zoom = factor;
+    this.camera.updateProjectionMatrix();
+  }
+
   setShadows(on) {
     this.key.castShadow = on;
   }

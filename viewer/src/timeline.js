@@ -19,7 +19,7 @@ export class Timeline {
     this.to = Math.max(player.duration, 0.01);
     this.laneHeight = fighters.length <= 2 ? 24 : 17;
     root.innerHTML = `
-      <div class="lanes-names">${fighters.map((f) => `<div style="height:${this.laneHeight}px;--c:${f.colour}"><i></i>${escapeHtml(f.name)}</div>`).join('')}</div>
+      <div class="lanes-names">${fighters.map((f) => `<div style="height:${this.laneHeight}px;--c:${f.colour}"><i></i><span>${escapeHtml(f.name)}</span></div>`).join('')}</div>
       <div class="lanes" style="--lane:${this.laneHeight}px" role="slider" tabindex="0" aria-label="Time" aria-valuemin="0" aria-valuemax="${player.duration.toFixed(2)}">
         <canvas></canvas><div class="marks"></div><div class="playhead"><b></b></div><div class="hover" hidden></div>
       </div>`;
