@@ -1,14 +1,24 @@
 #include "base/document.h"
 
-#define TOML_HEADER_ONLY 1
-#define TOML_EXCEPTIONS 0
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
+#include <stdexcept>
+
+// Debian's toml++ 3.3 meets some faulty inputs with a failed assertion ("[[[a]]]": issue 301 of
+// marzer/tomlplusplus) or, with NDEBUG, with undefined behaviour. Here it throws instead.
+#undef NDEBUG
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 1
+#define TOML_ASSERT(expression) ringcraft::expect(static_cast<bool>(expression))
+namespace ringcraft {
+static constexpr void expect(bool holds) {
+  if (!holds) throw std::logic_error("toml++ met what it did not expect");
+}
+}  // namespace ringcraft
+#include <toml++/toml.h>
 
 #include "base/file.h"
 #include "base/schema.h"
@@ -104,6 +114,27 @@ class Converter {
   std::map<std::string, int>& lines_;
 };
 
+// The line in which toml++ meets what it did not expect: the last one of the shortest text that
+// fails so. Lines are read in order, so bisection finds it.
+int unexpected_line(std::string_view text) {
+  std::vector<std::size_t> ends;  // of the lines
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') ends.push_back(i + 1);
+  }
+  ends.push_back(text.size());
+  const auto is_before = [&](std::size_t end) {
+    try {
+      static_cast<void>(toml::parse(text.substr(0, end)));
+    } catch (const toml::parse_error&) {
+    } catch (const std::logic_error&) {
+      return false;
+    }
+    return true;
+  };
+  const auto line = std::partition_point(ends.begin(), ends.end(), is_before);
+  return static_cast<int>(line - ends.begin()) + 1;
+}
+
 Result<Document> parse(const std::string& text, const std::filesystem::path& path) {
   Document document{path, {}, {}};
   if (text.size() > kLargestDocument) {
@@ -113,15 +144,19 @@ Result<Document> parse(const std::string& text, const std::filesystem::path& pat
     return usage_error(path.string(), "", "a dotted key is nested too deeply",
                        fmt::format("keep it within {} levels", kDeepest));
   }
-  const toml::parse_result parsed = toml::parse(std::string_view(text), path.string());
-  if (!parsed) {
-    return usage_error(path.string(), line_place(parsed.error().source()),
-                       "not valid TOML: " + std::string(parsed.error().description()),
+  try {
+    const toml::table parsed = toml::parse(std::string_view(text), path.string());
+    auto value = Converter(path.string(), document.lines).convert(parsed, "", 0);
+    if (!value) return tl::unexpected(value.error());
+    document.value = std::move(*value);
+  } catch (const toml::parse_error& fault) {
+    return usage_error(path.string(), line_place(fault.source()),
+                       "not valid TOML: " + std::string(fault.description()),
                        "correct the syntax there");
+  } catch (const std::logic_error&) {
+    return usage_error(path.string(), fmt::format("line {}", unexpected_line(text)),
+                       "not valid TOML: unexpected character", "correct the syntax there");
   }
-  auto value = Converter(path.string(), document.lines).convert(parsed.table(), "", 0);
-  if (!value) return tl::unexpected(value.error());
-  document.value = std::move(*value);
   return document;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "base/file.h"
+#include "base/random.h"
 #include "base/schema.h"
 #include "base/temporary_folder.h"
 
@@ -147,6 +148,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"OpenString", "name = \"a\n", "line 1, column 10", "not valid TOML", ""},
         BadInput{"KeyTwice", "name = \"a\"\nname = \"b\"\n", "line 2, column 8", "not valid TOML",
                  ""},
+        BadInput{"ThreeBrackets", "name = \"a\"\n\n[[[fighter]]]\nx = 1\n", "line 3",
+                 "not valid TOML", "correct the syntax"},
+        BadInput{"BracketsAndNoName", "[[=\n", "line 1", "not valid TOML", ""},
         BadInput{"NotFinite", "name = \"a\"\nhorizon_s = nan\n", "line 2, column 13", "not finite",
                  "finite"},
         BadInput{"Infinite", "name = \"a\"\ncolour = [1, 2, -inf]\n", "line 2, column 17",
@@ -199,6 +203,42 @@ TEST_F(DocumentTest, ASchemaWordThatTheWalkDoesNotKnowIsStillChecked) {
   ASSERT_FALSE(odd);
   EXPECT_EQ(odd.error().kind, ErrorKind::usage);
   EXPECT_THAT(to_string(odd.error()), HasSubstr("n"));
+}
+
+// A seeded storm of damaged inputs: whatever comes, the answer is a document or one line.
+TEST_F(DocumentTest, DamagedInputGivesADocumentOrOneLine) {
+  const std::string whole =
+      "name = \"duel\"\nhorizon_s = 2.5e0\nrounds = 0x3\nlive = true\nliked = {jab = 1.5}\n"
+      "colour = [0.1, 0.2, 0.3]\n[[fighter]]\nstyle = 'a'\n[[fighter]]\nstyle = \"\"\"b\"\"\"\n";
+  const std::string pieces = "=[]{}.,\"'#\\\n\r\t 019-+_eEinfa\xff\xc3\x80";
+  Random random(1);
+  int refused = 0;
+  for (int round = 0; round < 5000; ++round) {
+    std::string text = whole;
+    for (int change = random.below(4); change >= 0; --change) {
+      const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
+      const auto length = static_cast<std::size_t>(random.below(8));
+      switch (random.below(3)) {
+        case 0:
+          text[at] =
+              pieces[static_cast<std::size_t>(random.below(static_cast<int>(pieces.size())))];
+          break;
+        case 1:
+          text.erase(at, length + 1);
+          break;
+        default:
+          text.insert(at, text.substr(text.size() - at, length));
+          break;
+      }
+      if (text.empty()) text = "=";
+    }
+    const auto document = parsed(text);
+    if (document) continue;
+    ++refused;
+    EXPECT_EQ(document.error().kind, ErrorKind::usage);
+    EXPECT_EQ(to_string(document.error()).find('\n'), std::string::npos);
+  }
+  EXPECT_GT(refused, 2500);
 }
 
 class SetValueTest : public DocumentTest {
