@@ -3,9 +3,10 @@
 //
 // At a seam the difference to the new clip is inertialized (Bollo 2018): it starts from the present
 // pose and velocity and decays along a quintic, so that even an interrupted blend does not jump.
-// Feet are led by the ball of the foot, not by joint angles: a planted foot stays where it was set
-// down until the clip lifts it, one left too far from the clip's takes a small step of its own, and
-// where the legs are too short for that the hips sink.
+// Hands and feet are led by where they are, not by joint angles: those of an arm thrown straight
+// cannot decay one by one without throwing the fist aside or bending the elbow backwards. A planted
+// foot stays where it was set down until the clip lifts it, one left too far from the clip's takes
+// a small step of its own, and where the legs are too short for that the hips sink.
 
 #include <array>
 
@@ -56,6 +57,9 @@ class Playback {
   // Shows a simulated pose as it is; the feet are let go.
   const Pose& next_simulated(const Pose& pose);
 
+  // Replaces the pose just shown, where something outside (another body) stood in its way.
+  void amend(const Pose& pose) { shown_ = pose; }
+
   const Pose& shown() const { return shown_; }          // last shown
   const Pose& shown_before() const { return before_; }  // one tick earlier
   // Feet that stand still on the ground; not those that still press down or step on their own.
@@ -66,11 +70,11 @@ class Playback {
   enum class Mode : std::uint8_t { swing, step, held };
   struct Foot {
     Mode mode = Mode::swing;
-    Vec3 place{};                // of the ball of the foot while held, on the ground plane
-    Decay offset;                // of the ball to where it is going
-    Decay turn;                  // of the foot's world rotation to the clip's
-    float step_lift = 0;         // m: height of a step of its own
-    float step_age = 0;          // s
+    Vec3 place{};         // of the ball of the foot while held, on the ground plane
+    Decay offset;         // of the ball to where it is going
+    Decay turn;           // of the foot's world rotation to the clip's
+    float step_lift = 0;  // m: height of a step of its own
+    float step_age = 0, step_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
     Vec3 ball{}, ball_before{};  // shown
     Vec3 clip_ball{};            // the clip's, one tick ago
@@ -81,6 +85,7 @@ class Playback {
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
+  void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
 
   Skeleton skeleton_;
@@ -89,6 +94,8 @@ class Playback {
   bool started_ = false;
   std::array<Decay, kJointCount> rotation_;
   Decay hips_;
+  std::array<Decay, 2> hands_;            // of the wrists' world positions
+  std::array<float, 2> arm_reach_{0, 0};  // shown, as a share of the arm's length
   std::array<Foot, 2> feet_;
   float since_step_ = 1;  // s: since a foot took a step of its own
 };
