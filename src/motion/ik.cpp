@@ -79,6 +79,45 @@ void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& ta
   pose.rotation[index(limb.end)] = glm::normalize(glm::inverse(root_world * flexed) * end_world);
 }
 
+void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, float soft_share,
+                   Pose& pose) {
+  const WorldPose world = world_pose(skeleton, pose);
+  const Vec3 root = world.position[index(limb.root)], middle = world.position[index(limb.middle)],
+             end = world.position[index(limb.end)];
+  const float upper = glm::distance(root, middle), lower = glm::distance(middle, end);
+
+  // 1. The plane the limb bends in; a nearly straight one bends in its hinge's.
+  const Vec3 u = (middle - root) / upper, l = (end - middle) / lower;
+  const Vec3 hinge = world.rotation[index(limb.root)] * hinge_axis(limb);
+  const Vec3 across = glm::cross(u, l);
+  const float sense = glm::dot(across, hinge) < 0 ? -1.0f : 1.0f;
+  const Vec3 hinge_across = normalized_or(hinge - l * glm::dot(hinge, l), hinge);
+  const float trust = std::min(1.0f, glm::length(across) / 0.05f);
+  const Vec3 axis = normalized_or(
+      normalized_or(across, hinge) * (sense * trust) + hinge_across * (1 - trust), hinge_across);
+  const float flexed = sense * std::atan2(glm::length(across), glm::dot(u, l));
+
+  // 2. The flexion that gives the wanted reach, by the law of cosines.
+  const float nearest =
+      std::sqrt(upper * upper + lower * lower + 2 * upper * lower * std::cos(kMostFlexion));
+  const float reach =
+      std::max(softened(glm::distance(root, target), upper + lower, soft_share), nearest);
+  const float cosine = (reach * reach - upper * upper - lower * lower) / (2 * upper * lower);
+  const float wanted = std::acos(std::clamp(cosine, -1.0f, 1.0f));
+  const Quat bend = glm::angleAxis(wanted - flexed, axis);
+
+  // 3. Then the limb turns to the target.
+  const Vec3 bent = middle - root + bend * (end - middle);
+  const Quat turn = rotation_between(bent, target - root);
+  const Quat root_world = turn * world.rotation[index(limb.root)];
+  const Quat middle_world = turn * bend * world.rotation[index(limb.middle)];
+  pose.rotation[index(limb.root)] =
+      glm::normalize(glm::inverse(parent_rotation(world, limb.root)) * root_world);
+  pose.rotation[index(limb.middle)] = glm::normalize(glm::inverse(root_world) * middle_world);
+  pose.rotation[index(limb.end)] =
+      glm::normalize(glm::inverse(middle_world) * world.rotation[index(limb.end)]);
+}
+
 void set_world_rotation(const Skeleton& skeleton, Joint joint, Quat rotation, Pose& pose) {
   const WorldPose world = world_pose(skeleton, pose);
   pose.rotation[index(joint)] =

@@ -11,10 +11,11 @@ namespace {
 
 constexpr float kStraightest = 0.992f;   // of the leg's length: beyond it the hips sink
 constexpr float kLoadSeconds = 0.12f;    // in which a foot that was set down takes the weight
+constexpr float kStepSpeed = 2.0f;       // m/s: mean speed of a long step of its own
 constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
 constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
-constexpr float kSoftHinge = 0.3f;       // rad: over which an elbow eases into its stop
+constexpr float kSoftReach = 0.97f;      // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
@@ -57,19 +58,10 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
   return {value, (next - value) / kTickSeconds, seconds};
 }
 
-// Keeps a blended elbow from bending backwards, as an offset with a velocity can make it. Eases
-// over a range that shrinks with the offset, so that the clip's own elbow stays as it is.
-Quat within_hinge(Quat blended, Quat clip, Vec3 axis, float offset) {
-  const auto flexion = [&](Quat q) {
-    if (q.w < 0) q = -q;
-    return 2 * std::atan2(glm::dot(Vec3(q.x, q.y, q.z), axis), q.w);
-  };
-  const float least = std::min(0.0f, flexion(clip));
-  const float width = std::min(kSoftHinge, 2 * offset);
-  if (width < 1e-5f) return blended;
-  const float angle = flexion(blended);
-  const float kept = least + soft_positive(angle - least, width);
-  return glm::normalize(blended * glm::angleAxis(kept - angle, axis));
+// How far a limb reaches, as a share of its length.
+float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
+  return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
+         (skeleton.bone(limb.middle) + skeleton.bone(limb.end));
 }
 
 // Lowest height of the ball at which neither ball nor heel of a foot turned so is under the floor.
@@ -116,7 +108,16 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   }
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
-  for (const Side side : kSides) stitch_foot(side, world_now, world_after);
+  const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
+  for (const Side side : kSides) {
+    stitch_foot(side, world_now, world_after);
+    const std::size_t hand = index(arm(side).end);
+    const Vec3 hand_moved = shown.position[hand] - before.position[hand];
+    const Vec3 clip_hand_moved = world_after.position[hand] - world_now.position[hand];
+    hands_[static_cast<std::size_t>(side)] = {
+        shown.position[hand] + hand_moved - world_now.position[hand],
+        (hand_moved - clip_hand_moved) / kTickSeconds, seconds};
+  }
 }
 
 void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& after) {
@@ -129,11 +130,13 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   foot.clip_ball = now.position[ball] - clip_moved;
   if (foot.mode == Mode::held) return;
   const Vec3 moved = foot.ball - foot.ball_before;
-  const float seconds = foot.mode == Mode::swing
-                            ? settings_.blend_seconds
-                            : std::max(foot.offset.seconds_left(), settings_.land_seconds);
-  foot.offset = {foot.ball + moved - now.position[ball], (moved - clip_moved) / kTickSeconds,
-                 seconds};
+  const Vec3 offset = foot.ball + moved - now.position[ball];
+  float seconds = settings_.blend_seconds;
+  if (foot.mode == Mode::step) {
+    seconds = std::max(
+        {foot.offset.seconds_left(), settings_.land_seconds, glm::length(offset) / kStepSpeed});
+  }
+  foot.offset = {offset, (moved - clip_moved) / kTickSeconds, seconds};
   foot.step_lift = 0;  // a step under way has its height in the offset
 }
 
@@ -144,13 +147,8 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  for (const Side side : kSides) {
-    const std::size_t elbow = index(arm(side).middle);
-    pose.rotation[elbow] =
-        within_hinge(pose.rotation[elbow], clip_pose.rotation[elbow], hinge_axis(arm(side)),
-                     glm::length(rotation_[elbow].value()));
-  }
   place_feet(clip_pose, contacts, pose);
+  place_hands(clip_pose, pose);
   hips_.step(kTickSeconds);
   for (Decay& decay : rotation_) decay.step(kTickSeconds);
   return show(pose);
@@ -164,6 +162,7 @@ const Pose& Playback::next_simulated(const Pose& pose) {
     foot.load = 0;
   }
   hips_ = {};
+  hands_ = {};
   rotation_.fill({});
   return show(pose);
 }
@@ -180,6 +179,7 @@ const Pose& Playback::show(const Pose& pose) {
     const Vec3 ball = world.position[index(toes(side))];
     foot.ball_before = started_ ? foot.ball : ball;
     foot.ball = ball;
+    arm_reach_[static_cast<std::size_t>(side)] = reach_share(skeleton_, arm(side), world);
   }
   started_ = true;
   return shown_;
@@ -219,7 +219,9 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
     const float low = 1 - std::clamp(height / kLandingHeight, 0.0f, 1.0f);
     const float far = std::clamp(astray / settings_.restep_distance, 0.0f, 1.0f);
     foot.mode = Mode::step;
-    foot.offset = {carried - goal, velocity - on_ground(clip_velocity), settings_.restep_seconds};
+    foot.step_seconds =
+        std::max(settings_.restep_seconds, glm::distance(carried, goal) / kStepSpeed);
+    foot.offset = {carried - goal, velocity - on_ground(clip_velocity), foot.step_seconds};
     foot.step_lift = settings_.restep_lift * low * far;
     foot.step_age = 0;
     return;
@@ -251,7 +253,7 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
       ball += foot.place + kUp * floor;
       break;
     case Mode::step: {
-      const float rise = std::sin(kPi * std::min(1.0f, foot.step_age / settings_.restep_seconds));
+      const float rise = std::sin(kPi * std::min(1.0f, foot.step_age / foot.step_seconds));
       ball += on_ground(clip_ball) + kUp * (floor + foot.step_lift * rise * rise);
       foot.step_age += kTickSeconds;
       since_step_ = 0;
@@ -294,20 +296,31 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     sink = std::max(sink, smooth(foot.load) * soft_positive(over, 0.004f));
   }
   pose.hips.y -= sink;
-  // 2. The legs follow: the knee stays in the hinge's plane of the blended thigh.
+  // 2. The legs follow.
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     const Limb limb = leg(side);
-    const Vec3 line = ankle[i] - (world.position[index(limb.root)] - kUp * sink);
-    LimbTarget target;
-    target.position = ankle[i];
-    target.pole = glm::cross(line, world.rotation[index(limb.root)] * hinge_axis(limb));
-    target.soft_share = 0.997f;
-    solve_limb(skeleton_, limb, target, pose);
+    const float soft = std::max(kStraightest, reach_share(skeleton_, limb, clip_world));
+    move_limb_end(skeleton_, limb, ankle[i], soft, pose);
     set_world_rotation(skeleton_, limb.end, foot_rotation[i], pose);
     const Quat toe_rotation = foot_rotation[i] * pose.rotation[index(toes(side))];
     pose.rotation[index(toes(side))] = glm::normalize(
         glm::inverse(foot_rotation[i]) * toes_on_floor(skeleton_, toe_rotation, height[i]));
+  }
+}
+
+void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
+  const WorldPose clip_world = world_pose(skeleton_, clip_pose);
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
+    Decay& offset = hands_[i];
+    if (offset.done()) continue;
+    // The arm may be as straight as the clip's is or as it was shown last; beyond that it eases.
+    const float soft =
+        std::max({kSoftReach, arm_reach_[i], reach_share(skeleton_, arm(side), clip_world)});
+    const Vec3 target = clip_world.position[index(arm(side).end)] + offset.value();
+    move_limb_end(skeleton_, arm(side), target, std::min(soft, 0.9995f), pose);
+    offset.step(kTickSeconds);
   }
 }
 
