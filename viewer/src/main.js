@@ -309,11 +309,11 @@ class Page {
     if ($('clock').textContent !== clock) $('clock').textContent = clock;
     const hud = `${t.toFixed(3)} s  frame ${frame}${this.player.speed === 1 ? '' : `  ${this.player.speed}×`}`;
     if ($('hud').textContent !== hud) $('hud').textContent = hud;
-    const told = this.story.events.findLast((e) => e.t <= t + 1e-4 && t - e.t < 1.4 && !['decision', 'strike'].includes(e.type));
-    const words = told ? this.story.tell(told) : '';
+    const told = this.story.caption(t);
+    const words = told.map((event) => this.story.tell(event)).join(' → ');
     if ($('caption').textContent !== words) {
       $('caption').textContent = words;
-      $('caption').style.setProperty('--c', told ? TYPES[told.type]?.colour ?? '#fff' : 'transparent');
+      $('caption').style.setProperty('--c', TYPES[told[0]?.type]?.colour ?? '#fff');
     }
   }
 }

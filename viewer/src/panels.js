@@ -117,7 +117,9 @@ export class Panels {
       return;
     }
     const at = this.story.decisions.indexOf(event);
-    const pruned = Object.entries(event.pruned ?? {}).map(([key, value]) => {
+    const rules = Object.keys({ ...PRUNED, ...event.pruned }).filter((key) => event.pruned && key in event.pruned);
+    const pruned = rules.map((key) => {
+      const value = event.pruned[key];
       const [name, why] = PRUNED[key] ?? [plain(key), ''];
       return `<tr><th>${escapeHtml(name)}</th><td>${count(value)}</td><td class="why">${escapeHtml(why)}</td></tr>`;
     });
@@ -170,9 +172,12 @@ export class Panels {
   show(t) {
     const current = this.story.lastAt(this.listed, t);
     if (current !== this.current) {
-      this.rows[this.current]?.parentNode.classList.remove('current');
+      for (const row of this.list.querySelectorAll('.current')) row.classList.remove('current');
       this.current = current;
-      this.rows[current]?.parentNode.classList.add('current');
+      // What happened at the same instant belongs together.
+      for (let i = current; i >= 0 && this.listed[current].t - this.listed[i].t < 1e-6; --i) {
+        this.rows[i].parentNode.classList.add('current');
+      }
       if (this.tab === 'events') this.reveal();
     }
     const { decisions } = this.story;

@@ -1,6 +1,7 @@
 // What the events say of the fight at a time: health, score, the action in hand, a sentence for each event.
 import { plain, sizeOf } from './data.js';
 
+const CAPTION = 1.4;  // s for which a caption stays
 const FULL_HEALTH = 100;  // points, where the header does not say
 
 export class Story {
@@ -72,6 +73,14 @@ export class Story {
       }
     }
     return rows;
+  }
+
+  // The last thing worth a word, and what it led to at the same instant.
+  caption(t) {
+    const quiet = (event) => event.type === 'decision' || event.type === 'strike';
+    const last = this.events.findLast((event) => event.t <= t + 1e-4 && !quiet(event));
+    if (!last || t - last.t > CAPTION) return [];
+    return this.events.filter((event) => Math.abs(event.t - last.t) < 1e-6 && !quiet(event)).slice(0, 3);
   }
 
   // A short sentence.
