@@ -13,7 +13,9 @@ namespace {
 
 constexpr float kStraightestLeg = 0.985f;  // of its length, of a leg that stands
 constexpr float kEndTolerance = 0.012f;    // fraction of height: foot against the end guard
-constexpr int kSinkTicks = 6;              // over which the pelvis sinks to keep the feet in reach
+constexpr float kFreeFootSigma = 2.0f;     // ticks
+constexpr float kStrikeSigma = 1.2f, kHandSigma = 2.0f;  // ticks
+constexpr int kSinkTicks = 6;  // over which the pelvis sinks to keep the feet in reach
 
 Error fault(const Document& document, const std::string& pointer, std::string what,
             std::string remedy) {
@@ -84,7 +86,7 @@ void add_hands(const Skeleton& skeleton, const SheetAction& action,
       targets[k].arms[i] = hand.at(static_cast<float>(seconds(static_cast<Tick>(k))), targets[k]);
       wrist[k] = targets[k].arms[i].wrist;
     }
-    smooth(wrist, hand.strikes() ? 0.8f : 2.0f);
+    smooth(wrist, hand.strikes() ? kStrikeSigma : kHandSigma);
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k].arms[i].wrist = wrist[k];
   }
 }
@@ -99,6 +101,23 @@ void place(BodyTargets& targets, const Placement& root) {
   for (ArmTarget& arm : targets.arms) {
     arm.wrist = root * arm.wrist;
     arm.pole = turn * arm.pole;
+  }
+}
+
+// Rounds the ankle's path of feet in the air: a kick that turns back at the contact has mass.
+void smooth_free_feet(std::vector<BodyTargets>& targets) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::size_t begin = 0;
+    while (begin < targets.size()) {
+      std::size_t end = begin;
+      std::vector<Vec3> ankle;
+      while (end < targets.size() && targets[end].feet[side].freedom > 0) {
+        ankle.push_back(targets[end++].feet[side].ankle);
+      }
+      smooth(ankle, kFreeFootSigma);
+      for (std::size_t i = 0; i < ankle.size(); ++i) targets[begin + i].feet[side].ankle = ankle[i];
+      begin = end + 1;
+    }
   }
 }
 
@@ -141,6 +160,7 @@ Result<Action> compile(const Document& document, const SheetAction& sheet) {
       (side == 0 ? clip.contacts[i].left : clip.contacts[i].right) = foot.planted(t);
     }
   }
+  smooth_free_feet(targets);
   keep_in_reach(skeleton, targets);
   for (const BodyTargets& t : targets) clip.frames.push_back(body_pose(skeleton, t));
   unroll_rotations(clip);
