@@ -12,8 +12,10 @@ namespace {
 constexpr float kStraightest = 0.992f;   // of the leg's length: beyond it the hips sink
 constexpr float kLoadSeconds = 0.12f;    // in which a foot that was set down takes the weight
 constexpr float kStepSpeed = 2.0f;       // m/s: mean speed of a long step of its own
+constexpr float kLongestWait = 0.12f;    // m: how far a clip's foot may go ahead of one that waits
 constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
+constexpr float kNearlyDown = 0.02f;     // m: a step that is broken off below it is over
 constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
 constexpr float kSoftReach = 0.97f;      // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
@@ -131,13 +133,37 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   if (foot.mode == Mode::held) return;
   const Vec3 moved = foot.ball - foot.ball_before;
   const Vec3 offset = foot.ball + moved - now.position[ball];
-  float seconds = settings_.blend_seconds;
-  if (foot.mode == Mode::step) {
-    seconds = std::max(
-        {foot.offset.seconds_left(), settings_.land_seconds, glm::length(offset) / kStepSpeed});
+  const Vec3 velocity = (moved - clip_moved) / kTickSeconds;
+  if (foot.mode == Mode::swing) {
+    begin_move(foot, Mode::swing, offset, velocity, settings_.blend_seconds);
+  } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown) {
+    stand(foot, skeleton_.toe_height());
+  } else {
+    begin_move(foot, Mode::step, offset, velocity,
+               std::max(foot.offset.seconds_left(), settings_.land_seconds));
   }
-  foot.offset = {offset, (moved - clip_moved) / kTickSeconds, seconds};
-  foot.step_lift = 0;  // a step under way has its height in the offset
+}
+
+// The foot moves to its goal, the clip's or a place on the floor, from `offset` off it. It rises
+// enough to clear the floor half-way, whatever height it starts from.
+void Playback::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
+                          float least_seconds) const {
+  const float far = glm::length(on_ground(offset)) / settings_.restep_distance;
+  foot.mode = mode;
+  foot.rise_seconds = std::max(least_seconds, glm::length(offset) / kStepSpeed);
+  foot.offset = {offset, velocity, foot.rise_seconds};
+  foot.rise = std::max(0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2);
+  foot.rise_age = 0;
+}
+
+// The foot stands where it is from this tick on, and presses down.
+void Playback::stand(Foot& foot, float floor) const {
+  const Vec3 moved = foot.ball - foot.ball_before;
+  const Vec3 carried = foot.ball + moved;
+  foot.mode = Mode::held;
+  foot.place = on_ground(carried);
+  foot.offset = {kUp * (carried.y - floor), kUp * (moved.y / kTickSeconds), settings_.land_seconds};
+  foot.rise = 0;
 }
 
 const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
@@ -147,8 +173,8 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  place_feet(clip_pose, contacts, pose);
-  place_hands(clip_pose, pose);
+  const float sink = place_feet(clip_pose, contacts, pose);
+  place_hands(clip_pose, sink, pose);
   hips_.step(kTickSeconds);
   for (Decay& decay : rotation_) decay.step(kTickSeconds);
   return show(pose);
@@ -169,20 +195,33 @@ const Pose& Playback::next_simulated(const Pose& pose) {
 
 const Pose& Playback::show(const Pose& pose) {
   before_ = started_ ? shown_ : pose;
+  for (Foot& foot : feet_) foot.ball_before = foot.ball;
+  amend(pose);
+  if (!started_) {
+    for (Foot& foot : feet_) foot.ball_before = foot.ball;
+  }
+  started_ = true;
+  return shown_;
+}
+
+void Playback::amend(const Pose& pose) {
   shown_ = pose;
   for (std::size_t j = 0; j < kJointCount; ++j) {
     shown_.rotation[j] = in_hemisphere_of(shown_.rotation[j], before_.rotation[j]);
   }
   const WorldPose world = world_pose(skeleton_, shown_);
   for (const Side side : kSides) {
-    Foot& foot = feet_[static_cast<std::size_t>(side)];
-    const Vec3 ball = world.position[index(toes(side))];
-    foot.ball_before = started_ ? foot.ball : ball;
-    foot.ball = ball;
-    arm_reach_[static_cast<std::size_t>(side)] = reach_share(skeleton_, arm(side), world);
+    const auto i = static_cast<std::size_t>(side);
+    feet_[i].ball = world.position[index(toes(side))];
+    arm_reach_[i] = reach_share(skeleton_, arm(side), world);
   }
-  started_ = true;
-  return shown_;
+}
+
+// A clip that lifts this foot while the other is in the air on its own: it carries until the other
+// is down, unless the clip goes far meanwhile.
+bool Playback::lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const {
+  return foot.mode == Mode::held && other_foot.mode == Mode::step &&
+         glm::distance(foot.ball, clip_ball) < kLongestWait;
 }
 
 // What the foot does from this tick on. `floor`: height of the ball when the foot stands.
@@ -198,17 +237,16 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
 
   // 1. Lifted: the way back to the clip.
   if (!planted && foot.mode != Mode::swing) {
-    foot.mode = Mode::swing;
-    foot.offset = {carried - clip_ball, velocity - clip_velocity, settings_.unlock_seconds};
+    if (lift_waits(foot, other_foot, clip_ball)) return;
+    begin_move(foot, Mode::swing, carried - clip_ball, velocity - clip_velocity,
+               settings_.unlock_seconds);
     return;
   }
   // 2. Set down: where it is, if that is near enough and it is nearly down; else by a step.
   const bool may_stand = height < kLandingHeight && astray < settings_.restep_distance &&
                          glm::length(on_ground(velocity)) < kLandingSpeed;
   if (planted && foot.mode == Mode::swing && may_stand) {
-    foot.mode = Mode::held;
-    foot.place = on_ground(carried);
-    foot.offset = {kUp * height, kUp * velocity.y, settings_.land_seconds};
+    stand(foot, floor);
     return;
   }
   // 3. Left behind: a step of its own, while the other foot carries.
@@ -216,21 +254,13 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
                            stands(other_foot) && since_step_ > kBetweenSteps;
   if (planted && (foot.mode == Mode::swing || left_behind)) {
     const Vec3 goal = on_ground(clip_ball) + kUp * floor;
-    const float low = 1 - std::clamp(height / kLandingHeight, 0.0f, 1.0f);
-    const float far = std::clamp(astray / settings_.restep_distance, 0.0f, 1.0f);
-    foot.mode = Mode::step;
-    foot.step_seconds =
-        std::max(settings_.restep_seconds, glm::distance(carried, goal) / kStepSpeed);
-    foot.offset = {carried - goal, velocity - on_ground(clip_velocity), foot.step_seconds};
-    foot.step_lift = settings_.restep_lift * low * far;
-    foot.step_age = 0;
+    begin_move(foot, Mode::step, carried - goal, velocity - on_ground(clip_velocity),
+               settings_.restep_seconds);
     return;
   }
   // 4. A step of its own that has arrived.
   if (foot.mode == Mode::step && foot.offset.done()) {
-    foot.mode = Mode::held;
-    foot.place = on_ground(carried);
-    foot.offset = {kUp * height, kUp * velocity.y, settings_.land_seconds};
+    stand(foot, floor);
   }
 }
 
@@ -244,7 +274,8 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
     foot.place = on_ground(clip_ball);
     foot.load = planted ? 1.0f : 0.0f;
   }
-  Vec3 ball = foot.offset.value();
+  const float arc = std::sin(kPi * std::min(1.0f, foot.rise_age / foot.rise_seconds));
+  Vec3 ball = foot.offset.value() + kUp * (foot.rise * arc * arc);
   switch (foot.mode) {
     case Mode::swing:
       ball += clip_ball;
@@ -252,14 +283,12 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
     case Mode::held:
       ball += foot.place + kUp * floor;
       break;
-    case Mode::step: {
-      const float rise = std::sin(kPi * std::min(1.0f, foot.step_age / foot.step_seconds));
-      ball += on_ground(clip_ball) + kUp * (floor + foot.step_lift * rise * rise);
-      foot.step_age += kTickSeconds;
+    case Mode::step:
+      ball += on_ground(clip_ball) + kUp * floor;
       since_step_ = 0;
       break;
-    }
   }
+  foot.rise_age += kTickSeconds;
   // Never under the floor; one that a simulation left there comes up as its offset decays.
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
   foot.offset.step(kTickSeconds);
@@ -269,12 +298,13 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
   return ball;
 }
 
-void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
+// Returns how far the hips sink, m.
+float Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
   const WorldPose world = world_pose(skeleton_, pose);
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   std::array<Vec3, 2> ankle;
   std::array<Quat, 2> foot_rotation;
-  std::array<float, 2> height;
+  std::array<float, 2> height, straightest;
   float sink = 0;
   since_step_ += kTickSeconds;
   // 1. Where the feet go, and how far the hips must sink so that those that carry are in reach.
@@ -290,7 +320,9 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     height[i] = wanted.y;
     ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
     const Vec3 line = world.position[index(leg(side).root)] - ankle[i];
-    const float reach = kStraightest * skeleton_.leg_length();
+    straightest[i] =
+        std::clamp(reach_share(skeleton_, leg(side), clip_world), kStraightest, 0.9995f);
+    const float reach = straightest[i] * skeleton_.leg_length();
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
     sink = std::max(sink, smooth(foot.load) * soft_positive(over, 0.004f));
@@ -300,16 +332,16 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     const Limb limb = leg(side);
-    const float soft = std::max(kStraightest, reach_share(skeleton_, limb, clip_world));
-    move_limb_end(skeleton_, limb, ankle[i], soft, pose);
+    move_limb_end(skeleton_, limb, ankle[i], straightest[i], pose);
     set_world_rotation(skeleton_, limb.end, foot_rotation[i], pose);
     const Quat toe_rotation = foot_rotation[i] * pose.rotation[index(toes(side))];
     pose.rotation[index(toes(side))] = glm::normalize(
         glm::inverse(foot_rotation[i]) * toes_on_floor(skeleton_, toe_rotation, height[i]));
   }
+  return sink;
 }
 
-void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
+void Playback::place_hands(const Pose& clip_pose, float sink, Pose& pose) {
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -318,7 +350,7 @@ void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
     // The arm may be as straight as the clip's is or as it was shown last; beyond that it eases.
     const float soft =
         std::max({kSoftReach, arm_reach_[i], reach_share(skeleton_, arm(side), clip_world)});
-    const Vec3 target = clip_world.position[index(arm(side).end)] + offset.value();
+    const Vec3 target = clip_world.position[index(arm(side).end)] - kUp * sink + offset.value();
     move_limb_end(skeleton_, arm(side), target, std::min(soft, 0.9995f), pose);
     offset.step(kTickSeconds);
   }

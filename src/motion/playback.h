@@ -58,7 +58,7 @@ class Playback {
   const Pose& next_simulated(const Pose& pose);
 
   // Replaces the pose just shown, where something outside (another body) stood in its way.
-  void amend(const Pose& pose) { shown_ = pose; }
+  void amend(const Pose& pose);
 
   const Pose& shown() const { return shown_; }          // last shown
   const Pose& shown_before() const { return before_; }  // one tick earlier
@@ -70,11 +70,11 @@ class Playback {
   enum class Mode : std::uint8_t { swing, step, held };
   struct Foot {
     Mode mode = Mode::swing;
-    Vec3 place{};         // of the ball of the foot while held, on the ground plane
-    Decay offset;         // of the ball to where it is going
-    Decay turn;           // of the foot's world rotation to the clip's
-    float step_lift = 0;  // m: height of a step of its own
-    float step_age = 0, step_seconds = 1;
+    Vec3 place{};    // of the ball of the foot while held, on the ground plane
+    Decay offset;    // of the ball to where it is going
+    Decay turn;      // of the foot's world rotation to the clip's
+    float rise = 0;  // m: height of an arc on top, so that no foot is moved along the floor
+    float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
     Vec3 ball{}, ball_before{};  // shown
     Vec3 clip_ball{};            // the clip's, one tick ago
@@ -82,10 +82,13 @@ class Playback {
 
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);
+  void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
+  void stand(Foot& foot, float floor) const;
+  bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
-  void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
-  void place_hands(const Pose& clip_pose, Pose& pose);
+  float place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
+  void place_hands(const Pose& clip_pose, float sink, Pose& pose);
   const Pose& show(const Pose& pose);
 
   Skeleton skeleton_;
