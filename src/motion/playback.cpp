@@ -9,13 +9,14 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kStraightest = 0.992f;   // of the leg's length: beyond it the hips sink
+constexpr float kStraightest = 0.98f;    // of the leg's length: beyond it the hips sink
 constexpr float kLoadSeconds = 0.12f;    // in which a foot that was set down takes the weight
+constexpr float kRiseRate = 12;          // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;       // m/s: mean speed of a long step of its own
 constexpr float kLongestWait = 0.12f;    // m: how far a clip's foot may go ahead of one that waits
 constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
-constexpr float kNearlyDown = 0.02f;     // m: a step that is broken off below it is over
+constexpr float kNearlyDown = 0.035f;    // m: a step that is broken off below it is over
 constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
 constexpr float kSoftReach = 0.97f;      // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
@@ -104,6 +105,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const Vec3 moved = shown_.hips - before_.hips;
   const Vec3 clip_moved = after.hips - now.hips;
   hips_ = {shown_.hips + moved - now.hips, (moved - clip_moved) / kTickSeconds, seconds};
+  sink_ = {};  // what the hips had sunk is part of their offset now
   for (std::size_t j = 0; j < kJointCount; ++j) {
     rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
                                   after.rotation[j], seconds);
@@ -173,8 +175,8 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  const float sink = place_feet(clip_pose, contacts, pose);
-  place_hands(clip_pose, sink, pose);
+  place_feet(clip_pose, contacts, pose);
+  place_hands(clip_pose, pose);
   hips_.step(kTickSeconds);
   for (Decay& decay : rotation_) decay.step(kTickSeconds);
   return show(pose);
@@ -188,6 +190,7 @@ const Pose& Playback::next_simulated(const Pose& pose) {
     foot.load = 0;
   }
   hips_ = {};
+  sink_ = {};
   hands_ = {};
   rotation_.fill({});
   return show(pose);
@@ -222,6 +225,16 @@ void Playback::amend(const Pose& pose) {
 bool Playback::lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const {
   return foot.mode == Mode::held && other_foot.mode == Mode::step &&
          glm::distance(foot.ball, clip_ball) < kLongestWait;
+}
+
+// Down with what is needed at once, up again as a critically damped spring lets it.
+void Playback::Sink::follow(float needed) {
+  const float before = value;
+  const float slope = velocity + (value - needed) * kRiseRate;
+  const float fade = std::exp(-kRiseRate * kTickSeconds);
+  const float over = (value - needed + slope * kTickSeconds) * fade;
+  value = needed + std::max(0.0f, over);
+  velocity = over > 0 ? slope * fade - over * kRiseRate : (needed - before) / kTickSeconds;
 }
 
 // What the foot does from this tick on. `floor`: height of the ball when the foot stands.
@@ -292,20 +305,19 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
   // Never under the floor; one that a simulation left there comes up as its offset decays.
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
   foot.offset.step(kTickSeconds);
-  const float toward = foot.mode == Mode::held ? kTickSeconds : -kTickSeconds;
-  foot.load = std::clamp(foot.load + toward / kLoadSeconds, 0.0f, 1.0f);
+  foot.load =
+      foot.mode == Mode::held ? std::min(1.0f, foot.load + kTickSeconds / kLoadSeconds) : 0.0f;
   foot.clip_ball = clip_ball;
   return ball;
 }
 
-// Returns how far the hips sink, m.
-float Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
+void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
   const WorldPose world = world_pose(skeleton_, pose);
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   std::array<Vec3, 2> ankle;
   std::array<Quat, 2> foot_rotation;
   std::array<float, 2> height, straightest;
-  float sink = 0;
+  float needed = 0;
   since_step_ += kTickSeconds;
   // 1. Where the feet go, and how far the hips must sink so that those that carry are in reach.
   for (const Side side : kSides) {
@@ -325,9 +337,10 @@ float Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& p
     const float reach = straightest[i] * skeleton_.leg_length();
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
-    sink = std::max(sink, smooth(foot.load) * soft_positive(over, 0.004f));
+    needed = std::max(needed, smooth(foot.load) * soft_positive(over, 0.004f));
   }
-  pose.hips.y -= sink;
+  sink_.follow(needed);
+  pose.hips.y -= sink_.value;
   // 2. The legs follow.
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -338,10 +351,9 @@ float Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& p
     pose.rotation[index(toes(side))] = glm::normalize(
         glm::inverse(foot_rotation[i]) * toes_on_floor(skeleton_, toe_rotation, height[i]));
   }
-  return sink;
 }
 
-void Playback::place_hands(const Pose& clip_pose, float sink, Pose& pose) {
+void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
@@ -350,7 +362,8 @@ void Playback::place_hands(const Pose& clip_pose, float sink, Pose& pose) {
     // The arm may be as straight as the clip's is or as it was shown last; beyond that it eases.
     const float soft =
         std::max({kSoftReach, arm_reach_[i], reach_share(skeleton_, arm(side), clip_world)});
-    const Vec3 target = clip_world.position[index(arm(side).end)] - kUp * sink + offset.value();
+    const Vec3 target =
+        clip_world.position[index(arm(side).end)] - kUp * sink_.value + offset.value();
     move_limb_end(skeleton_, arm(side), target, std::min(soft, 0.9995f), pose);
     offset.step(kTickSeconds);
   }

@@ -80,6 +80,11 @@ class Playback {
     Vec3 clip_ball{};            // the clip's, one tick ago
   };
 
+  struct Sink {
+    float value = 0, velocity = 0;  // m, m/s: how far the hips are below the clip's
+    void follow(float needed);
+  };
+
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);
   void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
@@ -87,8 +92,8 @@ class Playback {
   bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
-  float place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
-  void place_hands(const Pose& clip_pose, float sink, Pose& pose);
+  void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
+  void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
 
   Skeleton skeleton_;
@@ -97,6 +102,7 @@ class Playback {
   bool started_ = false;
   std::array<Decay, kJointCount> rotation_;
   Decay hips_;
+  Sink sink_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
   std::array<float, 2> arm_reach_{0, 0};  // shown, as a share of the arm's length
   std::array<Foot, 2> feet_;
