@@ -385,6 +385,7 @@ void GlbBuilder::set_events(const Timeline& timeline) {
 }
 
 std::string GlbBuilder::bytes() {
+  if (model_.animations[0].channels.empty()) model_.animations.clear();  // none may be empty
   std::ostringstream stream(std::ios::binary);
   tinygltf::TinyGLTF writer;
   writer.WriteGltfSceneToStream(&model_, stream, false, true);

@@ -67,6 +67,7 @@ class Net {
     for (int axis = 0; axis < 3; ++axis) size_[axis] = static_cast<int>(lines_[axis].size());
     values_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], 1.0f);
     vertex_.assign(values_.size(), -1);
+    crossing_.assign(3 * values_.size(), -1);
   }
 
   SurfaceMesh build() {
@@ -136,7 +137,7 @@ class Net {
   // crossings, so that hems stay straight (dual contouring, Ju 2002), kept inside the cell.
   void place_vertex(Cell cell) {
     const DistanceField& local = part(cell);
-    std::array<Vec3, 12> crossing, normal;
+    std::array<Vec3, 12> points, normals;
     std::size_t count = 0;
     for (int edge = 0; edge < 12; ++edge) {
       const int axis = edge / 4;
@@ -146,21 +147,37 @@ class Net {
       Cell b = a;
       ++b[axis];
       if ((values_[index(a)] < 0) == (values_[index(b)] < 0)) continue;
-      crossing[count] = crossing_of(local, a, b);
-      normal[count] = local.normal(crossing[count], 0.0005f);
+      const Crossing& crossing = crossing_of(local, a, b, axis);
+      points[count] = crossing.point;
+      normals[count] = crossing.normal;
       ++count;
     }
     if (count == 0) return;
     const Vec3 low = corner(cell), high = corner({cell[0] + 1, cell[1] + 1, cell[2] + 1});
     const Vec3 point =
-        glm::clamp(nearest_to_planes({crossing.data(), count}, {normal.data(), count}), low, high);
+        glm::clamp(nearest_to_planes({points.data(), count}, {normals.data(), count}), low, high);
     vertex_[index(cell)] = static_cast<int>(mesh_.position.size());
     mesh_.position.push_back(point);
     mesh_.normal.push_back(local.normal(point, 0.003f));
   }
 
-  // Where the surface crosses the grid edge: two steps of the false position.
-  Vec3 crossing_of(const DistanceField& local, Cell from, Cell to) const {
+  struct Crossing {
+    Vec3 point{}, normal{};
+  };
+
+  // Where the surface crosses the grid edge; four cells share it.
+  const Crossing& crossing_of(const DistanceField& local, Cell a, Cell b, int axis) {
+    int& known = crossing_[3 * index(a) + axis];
+    if (known < 0) {
+      known = static_cast<int>(crossings_.size());
+      const Vec3 point = on_surface(local, a, b);
+      crossings_.push_back({point, local.normal(point, 0.0005f)});
+    }
+    return crossings_[known];
+  }
+
+  // Two steps of the false position.
+  Vec3 on_surface(const DistanceField& local, Cell from, Cell to) const {
     Vec3 a = corner(from), b = corner(to);
     float va = values_[index(from)], vb = values_[index(to)];
     for (int i = 0; i < 2; ++i) {
@@ -204,7 +221,9 @@ class Net {
   std::vector<float> values_;
   std::array<int, 3> blocks_{};
   std::vector<DistanceField> parts_;  // of the field, one a block that the surface crosses
-  std::vector<int> vertex_;
+  std::vector<int> vertex_;           // by cell; -1 where the surface is not
+  std::vector<int> crossing_;         // by edge: 3 a grid point
+  std::vector<Crossing> crossings_;
   SurfaceMesh mesh_;
 };
 
