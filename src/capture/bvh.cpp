@@ -110,7 +110,7 @@ class Words {
     if (end == text_.npos) end = text_.size();
     std::string_view rest = text_.substr(at_, end - at_);
     at_ = std::min(end + 1, text_.size());
-    ++line_;
+    if (end < text_.size()) ++line_;
     while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
     while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
     return rest;

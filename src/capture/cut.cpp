@@ -5,13 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "capture/retarget.h"
 #include "capture/smooth.h"
+#include "motion/state_machine.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kActiveFrom = 0.65f;    // share of the way out from which a straight can hit
-constexpr Tick kActiveAfter = 4;        // ticks after full extension for which it still can
+constexpr float kLargestReturn = radians(40);  // to which a body is turned back to its guard
+constexpr float kActiveFrom = 0.65f;           // share of the way out from which a straight can hit
+constexpr Tick kActiveAfter = 4;               // ticks after full extension for which it still can
 constexpr double kSearchAround = 0.12;  // s about the stated time in which the peak speed is sought
 constexpr double kExtensionAfter =
     0.16;  // s after the peak speed within which the limb is at full reach
@@ -43,6 +46,17 @@ Tick full_reach(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick pe
     }
   }
   return best;
+}
+
+// The moment as a clip of its own, five ticks, for the alignment.
+Clip window_of(const Clip& capture, Tick tick) {
+  Clip window;
+  for (Tick t = tick - 2; t <= tick + 2; ++t) {
+    window.frames.push_back(capture.at(t));
+    window.root.emplace_back();
+    window.contacts.push_back(capture.contacts_at(t));
+  }
+  return window;
 }
 
 bool is_straight(StrikeKind kind) {
@@ -77,32 +91,40 @@ void arc_window(const Skeleton& skeleton, const Clip& clip, Tick peak, Strike& s
   strike.active_end = end;
 }
 
-// Where the opponent of the first straight stands: from the hips to the joint at full reach.
-std::optional<float> straight_facing(const Skeleton& skeleton, const Clip& capture,
-                                     const ActionCut& cut) {
+// A straight's moment of full reach and where it goes then, in the clip's space.
+struct Aim {
+  Tick tick = 0;
+  float yaw = 0;  // rad
+};
+
+std::vector<Aim> aims_of(const Skeleton& skeleton, const Clip& clip, const ActionCut& cut,
+                         Tick first) {
+  std::vector<Aim> aims;
   for (const StrikeCut& strike : cut.strikes) {
     if (!is_straight(strike.kind)) continue;
-    const Tick peak =
-        fastest_tick(skeleton, capture, strike.joint, ticks(strike.at - kSearchAround),
-                     ticks(strike.at + kSearchAround));
-    const Tick reached = full_reach(skeleton, capture, strike.joint, peak);
-    return yaw_of(from_hips(skeleton, capture, strike.joint, reached));
+    const Tick at = ticks(strike.at) - first;
+    const Tick peak = fastest_tick(skeleton, clip, strike.joint, at - ticks(kSearchAround),
+                                   at + ticks(kSearchAround));
+    const Tick reached = full_reach(skeleton, clip, strike.joint, peak);
+    aims.push_back({reached, yaw_of(from_hips(skeleton, clip, strike.joint, reached))});
   }
-  return std::nullopt;
+  return aims;
 }
 
-// The root track: over the ground as tracked; blows face one way throughout, other actions turn
-// evenly from the guard they start in to the one they end in. On the floor there is no guard to
-// read.
+bool has_straight(const ActionCut& cut) {
+  return std::any_of(cut.strikes.begin(), cut.strikes.end(),
+                     [](const StrikeCut& strike) { return is_straight(strike.kind); });
+}
+
+// The root track: over the ground as tracked, facing as the guard at the start does and turning
+// evenly to the guard at the end. On the floor there is no guard to read.
 std::vector<Placement> root_track(const Skeleton& skeleton, const Clip& capture,
                                   const CaptureTracks& tracks, const ActionCut& cut, Tick first,
                                   Tick last) {
-  float start = tracks.facing[static_cast<std::size_t>(first)];
-  float end = tracks.facing[static_cast<std::size_t>(last)];
+  float start = facing_at(skeleton, capture, tracks, first);
+  float end = start + wrapped_angle(facing_at(skeleton, capture, tracks, last) - start);
   if (cut.starts_lying != Lying::none) start = end;
-  if (cut.ends_lying != Lying::none) end = start;
-  if (const auto facing = straight_facing(skeleton, capture, cut)) start = end = *facing;
-  if (!cut.strikes.empty()) end = start;
+  if (cut.ends_lying != Lying::none || has_straight(cut)) end = start;
   std::vector<Placement> root;
   for (Tick t = first; t <= last; ++t) {
     const Vec3 ground = tracks.ground[static_cast<std::size_t>(t)];
@@ -113,29 +135,69 @@ std::vector<Placement> root_track(const Skeleton& skeleton, const Clip& capture,
   return root;
 }
 
+// How far the clip is turned back at a moment: a turn between two knots goes smoothly.
+struct Knot {
+  Tick tick = 0;
+  float turn = 0;  // rad
+};
+
+float turn_at(const std::vector<Knot>& knots, Tick tick) {
+  std::size_t next = 1;
+  while (next + 1 < knots.size() && tick > knots[next].tick) ++next;
+  const Knot& a = knots[next - 1];
+  const Knot& b = knots[next];
+  const float span = static_cast<float>(std::max(1, b.tick - a.tick));
+  return glm::mix(a.turn, b.turn,
+                  glm::smoothstep(0.0f, 1.0f, static_cast<float>(tick - a.tick) / span));
+}
+
+// Turns the clip about the body's axis so that every straight goes along +Z at its full reach and
+// the body comes back to its guard; feet that stand at the start stay where they are, turning on
+// their balls. What the end still faces past +Z goes into the root track.
+void turn_to_opponent(const Skeleton& skeleton, const CaptureTracks& tracks,
+                      const std::vector<Aim>& aims, Clip& clip) {
+  const Tick last = clip.length();
+  std::vector<Knot> knots = {{0, 0.0f}};
+  for (const Aim& aim : aims) knots.push_back({aim.tick, -aim.yaw});
+  const float end = wrapped_angle(facing_at(skeleton, clip, tracks, last));
+  knots.push_back({last, std::clamp(-end, -kLargestReturn, kLargestReturn)});
+  for (Tick t = 0; t <= last; ++t) {
+    Quat& hips = clip.frames[static_cast<std::size_t>(t)].rotation[0];
+    hips = glm::normalize(yaw_rotation(turn_at(knots, t)) * hips);
+  }
+  RetargetSettings settings;
+  settings.keep_first_plants = true;
+  plant_feet(skeleton, clip, settings);
+  const float left_over = wrapped_angle(facing_at(skeleton, clip, tracks, last));
+  const Tick from = aims.back().tick;
+  for (Tick t = from; t <= last; ++t)
+    clip.root[static_cast<std::size_t>(t)].yaw +=
+        left_over *
+        glm::smoothstep(0.0f, 1.0f, static_cast<float>(t - from) / static_cast<float>(last - from));
+}
+
 }  // namespace
 
-CaptureTracks tracks_of(const Clip& capture, float guard_yaw) {
+CaptureTracks tracks_of(const Clip& capture, double guard_at, float guard_yaw) {
   CaptureTracks tracks;
-  std::vector<float> yaw;
-  for (const Pose& pose : capture.frames) {
-    tracks.ground.emplace_back(pose.hips.x, 0, pose.hips.z);
-    yaw.push_back(heading_of(pose.rotation[0]));
-  }
+  for (const Pose& pose : capture.frames) tracks.ground.emplace_back(pose.hips.x, 0, pose.hips.z);
   tracks.ground = smoothed(tracks.ground, 0.16f);
-  yaw = unwrapped(std::move(yaw));
-  // A pelvis that swings with a blow says little about the guard.
-  std::vector<float> weight;
-  for (std::size_t i = 0; i < yaw.size(); ++i) {
-    const std::size_t before = i >= 6 ? i - 6 : 0;
-    const std::size_t after = std::min(i + 6, yaw.size() - 1);
-    const float rate =
-        (yaw[after] - yaw[before]) / (static_cast<float>(after - before) * kTickSeconds);
-    weight.push_back(1 / (1 + (rate / radians(90)) * (rate / radians(90))));
+  const Tick at = std::clamp(ticks(guard_at), 0, capture.length());
+  tracks.guard = window_of(capture, at);
+  // The pelvis wanders: its mean heading over half a second.
+  Vec3 forward{};
+  for (Tick t = at - 30; t <= at + 30; ++t) {
+    const Vec3 ahead = capture.at(t).rotation[0] * kForward;
+    forward += Vec3(ahead.x, 0, ahead.z);
   }
-  tracks.facing = smoothed(yaw, weight, 0.35f);
-  for (float& facing : tracks.facing) facing -= guard_yaw;
+  tracks.guard_facing = yaw_of(forward) - guard_yaw;
   return tracks;
+}
+
+float facing_at(const Skeleton& skeleton, const Clip& capture, const CaptureTracks& tracks,
+                Tick tick) {
+  return tracks.guard_facing -
+         aligned(skeleton, tracks.guard, window_of(capture, tick)).placement.yaw;
 }
 
 Tick fastest_tick(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick first, Tick last) {
@@ -179,6 +241,8 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
     action.clip.contacts.push_back(capture.contacts_at(t));
   }
   action.clip.root.front() = {};
+  const std::vector<Aim> aims = aims_of(skeleton, action.clip, cut, first);
+  if (!aims.empty()) turn_to_opponent(skeleton, tracks, aims, action.clip);
   unroll_rotations(action.clip);
 
   for (const StrikeCut& wanted : cut.strikes) {

@@ -2,9 +2,14 @@
 // Cutting labelled actions out of a retargeted capture.
 //
 // A cut is moved to action space: +Z points at the opponent, who is nowhere in a capture of one
-// person. A straight says where he stands (pelvis to wrist at full extension); elsewhere the
-// fighter's guard does (its pelvis is turned off the opponent by a known angle). The root track is
-// smooth: it follows the body over the ground but neither the swing of the hips nor the bounce.
+// person. The fighter's guard says where he stands: the body is laid on one moment at which it is
+// known to stand in guard. Blows of shadow work stray (this boxer's crosses go 35 degrees across
+// his jabs), so a cut with straights is turned about its own axis, smoothly, until each of them
+// goes the way the guard at the start faces and the body comes back to it; then its feet are
+// planted again.
+//
+// The root track is smooth: it follows the body over the ground but neither the swing of the hips
+// nor the bounce.
 
 #include <optional>
 #include <string>
@@ -37,11 +42,17 @@ struct ActionCut {
 
 // What the cuts of one capture share.
 struct CaptureTracks {
-  std::vector<Vec3> ground;   // under the pelvis, low-passed at 1 Hz
-  std::vector<float> facing;  // rad, continuous: where the guard faces
+  std::vector<Vec3> ground;  // under the pelvis, low-passed at 1 Hz
+  Clip guard;                // the moment in guard, a few frames of the capture
+  float guard_facing = 0;    // rad: where the fighter faces in it
 };
-// `guard_yaw`: pelvis yaw off the opponent in this fighter's guard, rad (boxers -58 degrees).
-CaptureTracks tracks_of(const Clip& capture, float guard_yaw);
+// `guard_at`: s at which the fighter stands in guard; `guard_yaw`: pelvis yaw off the opponent in
+// it, rad (boxers -58 degrees).
+CaptureTracks tracks_of(const Clip& capture, double guard_at, float guard_yaw);
+
+// Where the body would face if it stood in guard, rad: its joints laid on those of the guard.
+float facing_at(const Skeleton& skeleton, const Clip& capture, const CaptureTracks& tracks,
+                Tick tick);
 
 // `file` and `place` are for messages.
 Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,

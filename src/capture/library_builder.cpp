@@ -124,7 +124,7 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
   if (!clip) return tl::unexpected(clip.error());
   if (flag_of(entry, "mirror")) *clip = mirrored(*clip);
   const auto yaw = static_cast<float>(number_of(entry, "guard_yaw_degrees", kGuardYaw));
-  const CaptureTracks tracks = tracks_of(*clip, radians(yaw));
+  const CaptureTracks tracks = tracks_of(*clip, number_of(entry, "guard_at"), radians(yaw));
   for (std::size_t i = 0; i < entry["action"].size(); ++i) {
     const std::string place = manifest.place(fmt::format("{}/action/{}/name", pointer, i));
     auto action = cut_action(skeleton, *clip, tracks, cut_from(entry["action"][i]),

@@ -140,8 +140,8 @@ void turn_to_hinges(const Skeleton& target, Clip& clip) {
     }
 }
 
-// Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on to
-// the knees.
+// Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on
+// to the knees.
 void calm_hips(Clip& clip) {
   std::vector<Vec3> path;
   for (const Pose& pose : clip.frames) path.push_back(pose.hips);

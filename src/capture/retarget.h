@@ -11,10 +11,11 @@
 namespace ringcraft {
 
 struct RetargetSettings {
-  float contact_height = 0.035f;  // m over its standing height: a foot above it does not carry
-  float contact_speed = 0.25f;    // m/s at which a foot counts as set down
-  float release_speed = 0.45f;    // m/s at which it counts as lifted
-  float blend_seconds = 0.20f;    // over which a lifted foot leaves its corrected place
+  float contact_height = 0.035f;   // m over its standing height: a foot above it does not carry
+  float contact_speed = 0.25f;     // m/s at which a foot counts as set down
+  float release_speed = 0.45f;     // m/s at which it counts as lifted
+  bool keep_first_plants = false;  // feet planted at the first frame stay there, not at their mean
+  float blend_seconds = 0.20f;     // over which a lifted foot leaves its corrected place
 };
 
 // In the capture's own space (our axes, metres of the target's body); the root track is the

@@ -70,6 +70,7 @@ void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSe
       continue;
     }
     Vec3 place = sum / static_cast<float>(end - i);
+    if (i == 0 && settings.keep_first_plants) place = track.ball.front();
     place.y = skeleton.toe_height();
     plants.push_back({i, end, place});
     i = end;

@@ -1,0 +1,300 @@
+#include "capture/retarget.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/file.h"
+#include "capture/bvh.h"
+#include "motion/quality.h"
+
+namespace ringcraft {
+namespace {
+
+const std::filesystem::path kBoxing = "/usr/share/assimp/models/BVH/Boxing_Toes.bvh";
+
+SkeletonProfile own_names() {
+  SkeletonProfile profile;
+  profile.name = "own";
+  profile.metres_per_unit = {1.0f, 0.01f};
+  for (std::size_t j = 0; j < kJointCount; ++j) profile.source[j] = vrm_name(joint_at(j));
+  return profile;
+}
+
+// A capture of the canonical body whose rest pose is turned joint by joint (`rest`, world
+// rotations), and which is `scale` times as large.
+RawClip capture_of(const Skeleton& skeleton, const std::vector<Pose>& poses,
+                   const std::array<Quat, kJointCount>& rest, float scale) {
+  RawClip clip;
+  clip.file = "own.bvh";
+  clip.frame_seconds = 1.0 / kTicksPerSecond;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    RawJoint joint;
+    joint.name = vrm_name(joint_at(j));
+    joint.parent = kParent[j];
+    const Quat carrier =
+        joint.parent < 0 ? Quat(1, 0, 0, 0) : rest[static_cast<std::size_t>(joint.parent)];
+    joint.offset = carrier * skeleton.offset[j] * scale;
+    clip.joints.push_back(joint);
+  }
+  for (const Pose& pose : poses) {
+    const WorldPose world = world_pose(skeleton, pose);
+    std::array<Quat, kJointCount> file{};
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      file[j] = world.rotation[j] * glm::inverse(rest[j]);
+      const int parent = clip.joints[j].parent;
+      const Quat local =
+          parent < 0 ? file[j] : glm::inverse(file[static_cast<std::size_t>(parent)]) * file[j];
+      clip.rotation.push_back(glm::normalize(local));
+      clip.translation.push_back(parent < 0 ? pose.hips * scale : clip.joints[j].offset);
+    }
+    ++clip.frames;
+  }
+  return clip;
+}
+
+// Stands with bent knees and works with both arms and the trunk.
+std::vector<Pose> standing_work(const Skeleton& skeleton) {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 120; ++i) {
+    const float phase = 2 * kPi * static_cast<float>(i) / 60.0f;
+    Pose pose = rest_pose(skeleton);
+    const float knee = radians(40);
+    for (const Side side : {Side::left, Side::right}) {
+      const float out = side == Side::left ? 1.0f : -1.0f;
+      pose.rotation[index(leg(side).root)] = glm::angleAxis(-knee / 2, kLeft);
+      pose.rotation[index(leg(side).middle)] = glm::angleAxis(knee, kLeft);
+      pose.rotation[index(leg(side).end)] = glm::angleAxis(-knee / 2, kLeft);
+      pose.rotation[index(arm(side).root)] =
+          glm::angleAxis(-out * radians(40 + 20 * std::sin(phase)), kForward);
+      pose.rotation[index(arm(side).middle)] =
+          glm::angleAxis(radians(70 + 30 * std::cos(phase + out)), -out * kUp);
+    }
+    pose.rotation[index(Joint::chest)] = glm::angleAxis(radians(10) * std::sin(phase), kUp);
+    const WorldPose world = world_pose(skeleton, pose);
+    pose.hips -= world.position[index(Joint::left_foot)] -
+                 Vec3(skeleton.offset[index(Joint::left_upper_leg)].x, skeleton.ankle_height(), 0);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+float largest_difference(const Skeleton& skeleton, const std::vector<Pose>& poses,
+                         const Clip& clip) {
+  float largest = 0;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i)
+    largest = std::max(largest, largest_joint_distance(world_pose(skeleton, poses[i]),
+                                                       world_pose(skeleton, clip.frames[i])));
+  return largest;
+}
+
+TEST(Retarget, OurOwnBodyComesBackAsItWas) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  std::array<Quat, kJointCount> rest{};
+  const auto clip = retarget(capture_of(skeleton, poses, rest, 1), own_names(), skeleton);
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  ASSERT_EQ(clip->frames.size(), poses.size());
+  EXPECT_TRUE(faults(*clip).empty()) << faults(*clip).front();
+  EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
+  for (const FootContacts& contacts : clip->contacts) EXPECT_TRUE(contacts.left && contacts.right);
+}
+
+TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  // Arms hang, legs are spread: as in other people's rest poses.
+  std::array<Quat, kJointCount> rest{};
+  for (const Side side : {Side::left, Side::right}) {
+    const float out = side == Side::left ? 1.0f : -1.0f;
+    for (const Joint joint : {arm(side).root, arm(side).middle, arm(side).end})
+      rest[index(joint)] = glm::angleAxis(-out * radians(80), kForward);
+    for (const Joint joint : {leg(side).root, leg(side).middle})
+      rest[index(joint)] = glm::angleAxis(out * radians(20), kForward);
+  }
+  const auto clip = retarget(capture_of(skeleton, poses, rest, 112), own_names(), skeleton);
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
+}
+
+TEST(Retarget, AnyFrameRateBecomesOneFrameATick) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  RawClip raw = capture_of(skeleton, poses, {}, 1);
+  raw.frame_seconds = 1.0 / 30;
+  const auto clip = retarget(raw, own_names(), skeleton);
+  ASSERT_TRUE(clip);
+  EXPECT_NEAR(seconds(clip->length()), raw.seconds(), 1.0 / 120 + 1e-6);
+}
+
+TEST(Retarget, AFootThatStandsInTheCaptureStandsStill) {
+  const Skeleton skeleton = canonical_skeleton();
+  std::vector<Pose> poses = standing_work(skeleton);
+  // A body that drifts: every foot slides at 0.1 m/s, slow enough to be meant as standing.
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    poses[i].hips.x += 0.1f * static_cast<float>(i) * kTickSeconds;
+  const auto clip = retarget(capture_of(skeleton, poses, {}, 1), own_names(), skeleton);
+  ASSERT_TRUE(clip);
+  const WorldPose first = world_pose(skeleton, clip->frames[10]);
+  const WorldPose last = world_pose(skeleton, clip->frames[110]);
+  for (const Side side : {Side::left, Side::right}) {
+    EXPECT_LT(glm::distance(first.position[index(toes(side))], last.position[index(toes(side))]),
+              0.002f);
+    EXPECT_NEAR(first.position[index(toes(side))].y, skeleton.toe_height(), 0.002f);
+  }
+}
+
+TEST(Retarget, ASteppingFootIsLiftedAndTheOtherIsNot) {
+  const Skeleton skeleton = canonical_skeleton();
+  std::vector<Pose> poses = standing_work(skeleton);
+  for (std::size_t i = 40; i < 80; ++i) {  // the left knee goes up and down again
+    const float lift = std::sin(kPi * static_cast<float>(i - 40) / 40.0f);
+    poses[i].rotation[index(Joint::left_upper_leg)] *= glm::angleAxis(-radians(40) * lift, kLeft);
+    poses[i].rotation[index(Joint::left_lower_leg)] *= glm::angleAxis(radians(40) * lift, kLeft);
+  }
+  const auto clip = retarget(capture_of(skeleton, poses, {}, 1), own_names(), skeleton);
+  ASSERT_TRUE(clip);
+  EXPECT_TRUE(clip->contacts[20].left && clip->contacts[100].left);
+  EXPECT_FALSE(clip->contacts[60].left);
+  for (const FootContacts& contacts : clip->contacts) EXPECT_TRUE(contacts.right);
+  EXPECT_GT(world_pose(skeleton, clip->frames[60]).position[index(Joint::left_toes)].y, 0.15f);
+}
+
+TEST(Retarget, AMissingJointIsAnErrorThatNamesIt) {
+  const Skeleton skeleton = canonical_skeleton();
+  RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
+  raw.joints[index(Joint::left_lower_leg)].name = "shin";
+  const auto clip = retarget(raw, own_names(), skeleton);
+  ASSERT_FALSE(clip);
+  EXPECT_NE(clip.error().place.find("leftLowerLeg"), std::string::npos);
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  double mean_a = 0, mean_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) mean_a += a[i], mean_b += b[i];
+  mean_a /= static_cast<double>(a.size());
+  mean_b /= static_cast<double>(b.size());
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+class Boxing : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kBoxing))
+      GTEST_SKIP() << "no captures: apt-get install assimp-testmodels";
+    raw_ = *read_bvh(kBoxing);
+    const SkeletonProfile profile =
+        *best_profile(*read_profiles(assets_folder() / "profiles"), raw_);
+    EXPECT_EQ(profile.name, "boxing_toes");
+    map_ = *map_joints(profile, raw_);
+    clip_ = *retarget(raw_, profile, skeleton_);
+    for (std::size_t i = 0; i < clip_.frames.size(); ++i)
+      source_.push_back(raw_pose(raw_, static_cast<double>(i) / kTicksPerSecond));
+  }
+  Vec3 source(std::size_t i, Joint joint) const {
+    const auto at = static_cast<std::size_t>(map_.source[index(joint)]);
+    return map_.axes * source_[i].position[at] * map_.metres_per_unit;
+  }
+
+  Skeleton skeleton_ = canonical_skeleton();
+  RawClip raw_;
+  JointMap map_;
+  Clip clip_;
+  std::vector<RawPose> source_;
+};
+
+TEST_F(Boxing, WristsAndAnklesGoTheWayTheyWentInTheCapture) {
+  for (const Joint joint :
+       {Joint::left_hand, Joint::right_hand, Joint::left_foot, Joint::right_foot})
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> ours, theirs;
+      for (std::size_t i = 0; i < clip_.frames.size(); ++i) {
+        const WorldPose world = world_pose(skeleton_, clip_.frames[i]);
+        ours.push_back(
+            static_cast<double>(world.position[index(joint)][axis] - world.position[0][axis]));
+        theirs.push_back(
+            static_cast<double>(source(i, joint)[axis] - source(i, Joint::hips)[axis]));
+      }
+      EXPECT_GT(correlation(ours, theirs), 0.98) << vrm_name(joint) << " axis " << axis;
+    }
+}
+
+TEST_F(Boxing, FeetSkateNoMoreThanInTheCapture) {
+  std::array<FootPath, 2> feet;
+  std::vector<float> hips;
+  for (std::size_t i = 0; i < source_.size(); ++i) {
+    hips.push_back(source(i, Joint::hips).y);
+    for (const Side side : {Side::left, Side::right}) {
+      feet[static_cast<std::size_t>(side)].ankle.push_back(source(i, leg(side).end));
+      feet[static_cast<std::size_t>(side)].toes.push_back(source(i, toes(side)));
+    }
+  }
+  EXPECT_LE(foot_skate_ratio(skeleton_, clip_.frames, 120),
+            foot_skate_ratio(feet, hips, 120) + 0.005);
+}
+
+TEST_F(Boxing, PlantedFeetDoNotMoveAndNothingSinksIntoTheFloor) {
+  for (std::size_t i = 1; i < clip_.frames.size(); ++i) {
+    const WorldPose before = world_pose(skeleton_, clip_.frames[i - 1]);
+    const WorldPose world = world_pose(skeleton_, clip_.frames[i]);
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t ball = index(toes(side));
+      EXPECT_GT(world.position[ball].y, skeleton_.toe_height() - 0.002f) << i;
+      EXPECT_GT(world.position[index(arm(side).end)].y, 0.02f) << i;
+      if (clip_.contacts[i].of(side) && clip_.contacts[i - 1].of(side)) {
+        EXPECT_LT(glm::distance(world.position[ball], before.position[ball]), 0.001f) << i;
+      }
+    }
+  }
+}
+
+TEST_F(Boxing, NoKneePops) {
+  // The largest jerk of a knee within two ticks is that of the capture, give or take a fifth.
+  float ours = 0;
+  float theirs = 0;
+  const auto bend = [](Vec3 a, Vec3 b, Vec3 c) {
+    return std::acos(
+        glm::clamp(glm::dot(glm::normalize(a - b), glm::normalize(c - b)), -1.0f, 1.0f));
+  };
+  for (const Side side : {Side::left, Side::right}) {
+    std::vector<float> mine, their;
+    const Limb limb = leg(side);
+    for (std::size_t i = 0; i < clip_.frames.size(); ++i) {
+      const WorldPose world = world_pose(skeleton_, clip_.frames[i]);
+      mine.push_back(bend(world.position[index(limb.root)], world.position[index(limb.middle)],
+                          world.position[index(limb.end)]));
+      their.push_back(bend(source(i, limb.root), source(i, limb.middle), source(i, limb.end)));
+    }
+    for (std::size_t i = 1; i + 1 < mine.size(); ++i) {
+      ours = std::max(ours, std::abs(mine[i + 1] - 2 * mine[i] + mine[i - 1]));
+      theirs = std::max(theirs, std::abs(their[i + 1] - 2 * their[i] + their[i - 1]));
+    }
+  }
+  EXPECT_LT(ours, 1.2f * theirs);
+}
+
+TEST_F(Boxing, ElbowsAndKneesFlexAboutTheirHinges) {
+  int bent = 0;
+  int off = 0;
+  for (const Pose& pose : clip_.frames)
+    for (const Side side : {Side::left, Side::right})
+      for (const Limb& limb : {arm(side), leg(side)}) {
+        const Vec3 bone = glm::normalize(skeleton_.offset[index(limb.end)]);
+        const Vec3 hinge = limb.root == leg(side).root ? kLeft : (side == Side::left ? -kUp : kUp);
+        const Vec3 axis = glm::cross(bone, pose.rotation[index(limb.middle)] * bone);
+        if (glm::length(axis) < std::sin(radians(35))) continue;
+        ++bent;
+        off += glm::dot(glm::normalize(axis), hinge) < std::cos(radians(10)) ? 1 : 0;
+      }
+  EXPECT_GT(bent, 1000);
+  EXPECT_LT(off, bent / 100);
+}
+
+}  // namespace
+}  // namespace ringcraft
