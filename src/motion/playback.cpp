@@ -18,6 +18,7 @@ constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
 constexpr float kNearlyDown = 0.035f;    // m: a step that is broken off below it is over
 constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
+constexpr float kLongest = 0.9995f;      // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;      // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
 
@@ -118,6 +119,8 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     const std::size_t hand = index(arm(side).end);
     const Vec3 hand_moved = shown.position[hand] - before.position[hand];
     const Vec3 clip_hand_moved = world_after.position[hand] - world_now.position[hand];
+    arm_reach_[static_cast<std::size_t>(side)] =
+        std::min(reach_share(skeleton_, arm(side), shown), 0.995f);
     hands_[static_cast<std::size_t>(side)] = {
         shown.position[hand] + hand_moved - world_now.position[hand],
         (hand_moved - clip_hand_moved) / kTickSeconds, seconds};
@@ -216,7 +219,6 @@ void Playback::amend(const Pose& pose) {
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     feet_[i].ball = world.position[index(toes(side))];
-    arm_reach_[i] = reach_share(skeleton_, arm(side), world);
   }
 }
 
@@ -256,8 +258,9 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
     return;
   }
   // 2. Set down: where it is, if that is near enough and it is nearly down; else by a step.
-  const bool may_stand = height < kLandingHeight && astray < settings_.restep_distance &&
-                         glm::length(on_ground(velocity)) < kLandingSpeed;
+  const bool near = height < kLandingHeight && astray < settings_.restep_distance;
+  const bool coming_down = height < kNearlyDown && velocity.y < 0;
+  const bool may_stand = (near || coming_down) && glm::length(on_ground(velocity)) < kLandingSpeed;
   if (planted && foot.mode == Mode::swing && may_stand) {
     stand(foot, floor);
     return;
@@ -333,7 +336,7 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
     const Vec3 line = world.position[index(leg(side).root)] - ankle[i];
     straightest[i] =
-        std::clamp(reach_share(skeleton_, leg(side), clip_world), kStraightest, 0.9995f);
+        std::clamp(reach_share(skeleton_, leg(side), clip_world), kStraightest, kLongest);
     const float reach = straightest[i] * skeleton_.leg_length();
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
@@ -359,12 +362,14 @@ void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
     const auto i = static_cast<std::size_t>(side);
     Decay& offset = hands_[i];
     if (offset.done()) continue;
-    // The arm may be as straight as the clip's is or as it was shown last; beyond that it eases.
-    const float soft =
-        std::max({kSoftReach, arm_reach_[i], reach_share(skeleton_, arm(side), clip_world)});
+    // The arm may be as straight as the clip's is or, fading, as it was at the seam; beyond, it
+    // eases.
+    const float left = offset.seconds_left() / settings_.blend_seconds;
+    const float seam = kSoftReach + (arm_reach_[i] - kSoftReach) * smooth(left);
+    const float soft = std::max({kSoftReach, seam, reach_share(skeleton_, arm(side), clip_world)});
     const Vec3 target =
         clip_world.position[index(arm(side).end)] - kUp * sink_.value + offset.value();
-    move_limb_end(skeleton_, arm(side), target, std::min(soft, 0.9995f), pose);
+    move_limb_end(skeleton_, arm(side), target, std::min(soft, kLongest), pose);
     offset.step(kTickSeconds);
   }
 }

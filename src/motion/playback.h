@@ -104,7 +104,7 @@ class Playback {
   Decay hips_;
   Sink sink_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
-  std::array<float, 2> arm_reach_{0, 0};  // shown, as a share of the arm's length
+  std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   std::array<Foot, 2> feet_;
   float since_step_ = 1;  // s: since a foot took a step of its own
 };
