@@ -7,6 +7,7 @@
 
 #include "physics/impact.h"
 #include "physics/muscles.h"
+#include "physics/penetration.h"
 
 namespace ringcraft {
 namespace {
@@ -138,17 +139,17 @@ struct StrikeTraits {
 StrikeTraits traits_of(StrikeKind kind) {
   switch (kind) {
     case StrikeKind::straight:
-      return {.1f, 1.0f, 4.0f};
+      return {.25f, 1.3f, 4.0f};
     case StrikeKind::hook:
     case StrikeKind::uppercut:
-      return {.5f, 1.0f, 4.0f};
+      return {.75f, 1.3f, 3.5f};
     case StrikeKind::roundhouse:
       return {.5f, 2.0f, 7.0f};
     case StrikeKind::front_kick:
     case StrikeKind::side_kick:
       return {.5f, 4.0f, 18.0f};
   }
-  return {.1f, 1.0f, 4.0f};
+  return {.25f, 1.3f, 4.0f};
 }
 
 // The line of the blow: the way of the striker, turned into the cone of friction around the
@@ -182,8 +183,13 @@ Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyMod
   const Vec3 line = line_of(contact.velocity, -contact.normal);
   blow.speed = std::max(0.0f, glm::dot(contact.velocity, line));
   const StrikeTraits traits = traits_of(kind);
+  // A fist strikes with the knuckles in line: its mass is that at the glove's axis, in the pose
+  // given (the contact may lie a few centimetres before it).
+  const Capsule glove =
+      capsules(attacker, world_pose(attacker.skeleton, attacker_pose))[index(contact.striker)];
+  const Vec3 knuckles = segment_distance(glove.a, glove.b, contact.point, contact.point).on_first;
   blow.effective_mass = std::clamp(
-      effective_mass(attacker, attacker_pose, contact.striker, contact.point, line, traits.tone),
+      effective_mass(attacker, attacker_pose, contact.striker, knuckles, line, traits.tone),
       traits.least, traits.most);
   const float struck =
       effective_mass(target, target_pose, contact.struck, contact.point, line, kStruckTone);
