@@ -44,8 +44,8 @@ class ImpactFrame {
 // at the joint to its parent.
 void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share);
 
-// The base under the feet that stand on the ground in a simulated pose.
-Base standing_base(const BodyModel& body, const Pose& pose);
+// The base under the planted feet where they are now: a struck foot has moved.
+Base standing_base(const BodyModel& body, const Ragdoll& ragdoll, FootContacts contacts);
 
 // Balance without outside force: the target poses' pelvis is shifted against the drift of the
 // extrapolated centre of mass, the legs reach for the same foot places (ragdoll.md section 2).
