@@ -284,8 +284,8 @@ DistanceField shorts_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
   add_shorts(s, build);
-  s.cut(kSpine, {0, 0.006f, 0}, {0, 1, 0}, 0.006f);
-  s.cut(kThigh, {0, -0.220f, 0}, {0.25f, -1, 0}, 0.006f);
+  s.cut(kSpine, {0, 0.004f, 0}, {0, 1, 0}, 0.010f);
+  s.cut(kThigh, {0, -0.222f, 0}, {0.25f, -1, 0}, 0.020f);
   return field;
 }
 
@@ -293,9 +293,9 @@ DistanceField waistband_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
   add_shorts(s, build);
-  field.grow(0.004f * build.scale);
-  s.cut(kSpine, {0, 0.018f, 0}, {0, 1, 0}, 0.004f);
-  s.cut(kSpine, {0, -0.026f, 0}, {0, -1, 0}, 0.004f);
+  field.grow(0.006f * build.scale);
+  s.cut(kSpine, {0, 0.021f, 0}, {0, 1, 0}, 0.016f);
+  s.cut(kSpine, {0, -0.029f, 0}, {0, -1, 0}, 0.016f);
   return field;
 }
 
@@ -306,13 +306,14 @@ DistanceField top_field(const Build& build) {
   add_trunk(s, build);
   add_neck(s, build);
   field.grow(0.005f * build.scale);
-  s.cut(kUpperChest, {0, -0.100f, 0}, {0, -1, 0}, 0.004f);
+  s.cut(kUpperChest, {0, -0.100f, 0}, {0, -1, 0}, 0.012f);
+  s.cut(kNeck, {0, 0.052f, 0}, {0, 1, 0}, 0.006f);
   s.follow_girth(true);
   // Armholes, neckline, back.
-  s.hollow(kArm, {-0.028f, 0.015f, 0}, {0.085f, 0.130f, 0.300f}, 0.004f);
-  s.hollow(kUpperChest, {0, 0.150f, 0.080f}, {0.064f, 0.105f, 0.110f}, 0.004f);
-  s.hollow(kUpperChest, {0, 0.170f, -0.090f}, {0.064f, 0.105f, 0.110f}, 0.004f);
-  s.hollow(kNeck, {0, 0.060f, -0.010f}, {0.070f, 0.090f, 0.075f}, 0.004f);
+  s.hollow(kArm, {-0.028f, 0.015f, 0}, {0.085f, 0.130f, 0.300f}, 0.010f);
+  s.hollow(kUpperChest, {0, 0.150f, 0.080f}, {0.064f, 0.105f, 0.110f}, 0.010f);
+  s.hollow(kUpperChest, {0, 0.170f, -0.090f}, {0.064f, 0.105f, 0.110f}, 0.010f);
+  s.hollow(kNeck, {0, 0.060f, -0.010f}, {0.070f, 0.090f, 0.075f}, 0.010f);
   return field;
 }
 
@@ -334,8 +335,8 @@ DistanceField cuff_field(const Build& build) {
   Sculptor s(build, field);
   s.follow_girth(false);
   s.taper(kWrist, {-0.070f, 0, 0}, kWrist, {0.040f, 0.003f, 0.003f}, 0.045f, 0.046f, 0);
-  s.cut(kWrist, {-0.075f, 0, 0}, {-1, 0, 0}, 0.010f);
-  s.cut(kWrist, {0.014f, 0, 0}, {1, 0, 0}, 0.006f);
+  s.cut(kWrist, {-0.075f, 0, 0}, {-1, 0, 0}, 0.014f);
+  s.cut(kWrist, {0.014f, 0, 0}, {1, 0, 0}, 0.010f);
   return field;
 }
 
@@ -349,9 +350,9 @@ DistanceField anklet_field(const Build& build) {
   s.ellipsoid(kAnkle, {0, -0.028f, -0.030f}, {0.037f, 0.040f, 0.038f}, 0.03f);
   s.taper(kAnkle, {0, 0.0f, 0.004f}, kAnkle, {0.001f, -0.026f, 0.070f}, 0.041f, 0.036f, 0.03f,
           {1.06f, 1, 1});
-  s.cut(kAnkle, {0, 0.100f, 0}, {0, 1, 0}, 0.006f);
-  s.cut(kAnkle, {0, 0, 0.055f}, {0, 0.25f, 1}, 0.006f);
-  s.cut(kAnkle, {0, -0.030f, -0.030f}, {0, -0.55f, -1}, 0.006f);
+  s.cut(kAnkle, {0, 0.100f, 0}, {0, 1, 0}, 0.010f);
+  s.cut(kAnkle, {0, 0, 0.055f}, {0, 0.25f, 1}, 0.010f);
+  s.cut(kAnkle, {0, -0.030f, -0.030f}, {0, -0.55f, -1}, 0.010f);
   field.cut({{0, 0.001f, 0}, {0, -1, 0}, 0.006f * build.scale});
   return field;
 }

@@ -192,10 +192,10 @@ Mannequin make_mannequin(const BodyModel& body) {
   draw_in(skin, hair_field(build), 0.004f * s);
   draw_in(skin, anklet_field(build), 0.004f * s);
   add_piece(mannequin, std::move(skin));
-  add_piece(mannequin, grown(build, shorts_field(build), even(0.017f), Region::shorts));
+  add_piece(mannequin, grown(build, shorts_field(build), even(0.015f), Region::shorts));
   add_piece(mannequin, grown(build, top_field(build), even(0.014f), Region::shorts));
   add_piece(mannequin, grown(build, glove_field(build), even(0.011f), Region::gloves));
-  add_piece(mannequin, grown(build, waistband_field(build), even(0.014f), Region::trim));
+  add_piece(mannequin, grown(build, waistband_field(build), even(0.011f), Region::trim));
   add_piece(mannequin, grown(build, cuff_field(build), even(0.012f), Region::trim));
   add_piece(mannequin, grown(build, anklet_field(build), even(0.012f), Region::trim));
   add_piece(mannequin, grown(build, hair_field(build), even(0.0095f), Region::hair));

@@ -78,12 +78,13 @@ void share_arm(Shares& shares, const Build& build, Vec3 p, float unit, float gir
   for (const Joint joint : {Joint::chest, Joint::upper_chest, Joint::neck, Joint::left_shoulder}) {
     pass_on(shares, joint, Joint::left_upper_arm, arm);
   }
-  const auto along = [&](Joint parent, Joint child, float half) {
+  const auto along = [&](Joint parent, Joint child, float half, float value) {
     const float at = build.rest.position[index(child)].x;
-    pass_on(shares, parent, child, ramp(at - half * unit, at + half * unit, p.x));
+    pass_on(shares, parent, child, ramp(at - half * unit, at + half * unit, value));
   };
-  along(Joint::left_upper_arm, Joint::left_lower_arm, 0.050f);
-  along(Joint::left_lower_arm, Joint::left_hand, 0.030f);
+  // The elbow's point belongs to the forearm, its crook to the upper arm.
+  along(Joint::left_upper_arm, Joint::left_lower_arm, 0.050f, p.x - 0.5f * (p.z - shoulder.z));
+  along(Joint::left_lower_arm, Joint::left_hand, 0.030f, p.x);
 }
 
 // Thigh, shin, foot, toes, by the distance below the hip joint (p.x >= 0).
