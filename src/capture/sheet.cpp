@@ -13,8 +13,9 @@ namespace {
 
 constexpr float kStraightestLeg = 0.985f;  // of its length, of a leg that stands
 constexpr float kEndTolerance = 0.012f;    // fraction of height: foot against the end guard
-constexpr float kFreeFootSigma = 2.0f;     // ticks
-constexpr float kStrikeSigma = 1.2f, kHandSigma = 2.0f;  // ticks
+constexpr float kPelvisSigma = 2.5f, kTrunkSigma = 2.0f;    // ticks
+constexpr float kFreeFootSigma = 2.0f, kAnkleSigma = 4.0f;  // ticks
+constexpr float kStrikeSigma = 1.2f, kHandSigma = 2.0f;     // ticks
 constexpr int kSinkTicks = 6;  // over which the pelvis sinks to keep the feet in reach
 
 Error fault(const Document& document, const std::string& pointer, std::string what,
@@ -48,31 +49,20 @@ std::optional<Error> check_strikes(const Document& document, const SheetAction& 
 // The trunk's curves at every tick, filtered so that no key can be seen.
 std::vector<BodyTargets> trunk_targets(const TrunkMotion& trunk, std::size_t count) {
   std::vector<BodyTargets> targets(count);
-  std::vector<Vec3> pelvis(count);
   for (std::size_t i = 0; i < count; ++i) {
     trunk.fill(static_cast<float>(seconds(static_cast<Tick>(i))), targets[i]);
-    pelvis[i] = targets[i].pelvis;
   }
-  smooth(pelvis, 2.5f);
-  const auto filter = [&](auto member) {
-    // About the rotation of the tick, neighbours are small turns, which average like vectors.
-    std::vector<Vec3> turns(count);
-    for (std::size_t i = 1; i < count; ++i) {
-      const Quat before = targets[i - 1].*member,
-                 now = in_hemisphere_of(targets[i].*member, before);
-      turns[i] = turns[i - 1] + rotation_vector(now * glm::inverse(before));
-    }
-    const std::vector<Vec3> raw = turns;
-    smooth(turns, 2.0f);
-    for (std::size_t i = 0; i < count; ++i) {
-      targets[i].*member =
-          glm::normalize(from_rotation_vector(turns[i] - raw[i]) * targets[i].*member);
-    }
-  };
-  filter(&BodyTargets::pelvis_rotation);
-  filter(&BodyTargets::chest_rotation);
-  filter(&BodyTargets::head_rotation);
+  std::vector<Vec3> pelvis(count);
+  for (std::size_t i = 0; i < count; ++i) pelvis[i] = targets[i].pelvis;
+  smooth(pelvis, kPelvisSigma);
   for (std::size_t i = 0; i < count; ++i) targets[i].pelvis = pelvis[i];
+  for (const auto member :
+       {&BodyTargets::pelvis_rotation, &BodyTargets::chest_rotation, &BodyTargets::head_rotation}) {
+    std::vector<Quat> rotations(count);
+    for (std::size_t i = 0; i < count; ++i) rotations[i] = targets[i].*member;
+    smooth(rotations, kTrunkSigma);
+    for (std::size_t i = 0; i < count; ++i) targets[i].*member = rotations[i];
+  }
   return targets;
 }
 
@@ -104,19 +94,43 @@ void place(BodyTargets& targets, const Placement& root) {
   }
 }
 
+// Runs of ticks in which a foot is off the ground: first tick and one past the last.
+std::vector<std::pair<std::size_t, std::size_t>> free_runs(const std::vector<BodyTargets>& targets,
+                                                           std::size_t side) {
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].feet[side].freedom <= 0) continue;
+    const bool goes_on = !runs.empty() && runs.back().second == i;
+    if (!goes_on) runs.emplace_back(i, i);
+    runs.back().second = i + 1;
+  }
+  return runs;
+}
+
 // Rounds the ankle's path of feet in the air: a kick that turns back at the contact has mass.
 void smooth_free_feet(std::vector<BodyTargets>& targets) {
   for (std::size_t side = 0; side < 2; ++side) {
-    std::size_t begin = 0;
-    while (begin < targets.size()) {
-      std::size_t end = begin;
+    for (const auto& [begin, end] : free_runs(targets, side)) {
       std::vector<Vec3> ankle;
-      while (end < targets.size() && targets[end].feet[side].freedom > 0) {
-        ankle.push_back(targets[end++].feet[side].ankle);
-      }
+      for (std::size_t i = begin; i < end; ++i) ankle.push_back(targets[i].feet[side].ankle);
       smooth(ankle, kFreeFootSigma);
-      for (std::size_t i = 0; i < ankle.size(); ++i) targets[begin + i].feet[side].ankle = ankle[i];
-      begin = end + 1;
+      for (std::size_t i = begin; i < end; ++i) targets[i].feet[side].ankle = ankle[i - begin];
+    }
+  }
+}
+
+// The same for how such a foot is turned: it yields to the floor softly.
+void smooth_free_ankles(const std::vector<BodyTargets>& targets, std::vector<Pose>& frames) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Side which = side == 0 ? Side::left : Side::right;
+    for (const Joint joint : {leg(which).end, toes(which)}) {
+      for (const auto& [begin, end] : free_runs(targets, side)) {
+        std::vector<Quat> turns;
+        for (std::size_t i = begin; i < end; ++i) turns.push_back(frames[i].rotation[index(joint)]);
+        smooth(turns, kAnkleSigma);
+        for (std::size_t i = begin; i < end; ++i)
+          frames[i].rotation[index(joint)] = turns[i - begin];
+      }
     }
   }
 }
@@ -163,6 +177,7 @@ Result<Action> compile(const Document& document, const SheetAction& sheet) {
   smooth_free_feet(targets);
   keep_in_reach(skeleton, targets);
   for (const BodyTargets& t : targets) clip.frames.push_back(body_pose(skeleton, t));
+  smooth_free_ankles(targets, clip.frames);
   unroll_rotations(clip);
   for (const SheetStrike& strike : sheet.strikes) {
     Strike s = strike.strike;

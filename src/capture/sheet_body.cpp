@@ -11,6 +11,7 @@ constexpr float kMostGirdle = radians(20);  // of the shoulder blade
 constexpr float kMostNeck = radians(75);    // head against chest
 constexpr float kMostWrist = radians(80);   // bent back on the floor
 constexpr float kMostAnkle = radians(50);   // given by the floor
+constexpr float kKneeRadius = 0.055f;       // m: height of a knee on the floor
 constexpr float kSoftReach = 0.93f;         // of a limb's length: beyond it the reach is eased
 constexpr float kClosestReach = 0.32f;      // elbow 37, knee 37 degrees: flesh meets flesh
 constexpr float kLongestReach = 0.995f;     // and never comes to this share (elbow 169 degrees)
@@ -78,12 +79,34 @@ void lay_on_floor(const Skeleton& skeleton, Side side, Pose& pose) {
       pose.rotation[index(limb.end)] * glm::angleAxis(turn * eased(0, 0.4f, back_up), axis);
 }
 
-// The same for the toes of a foot in the air; the turn from the asked rotation, rad.
+// The same for the toes of a foot in the air; the turn from the asked rotation, rad. A foot that
+// stands upright on its toes is left alone.
 float toes_off_floor(const Skeleton& skeleton, Vec3 ankle, Quat rotation) {
   const Vec3 ball = rotation * skeleton.offset[index(Joint::left_toes)];
   const float up = skeleton.toe_height() - ankle.y;
   if (ball.y >= up) return 0;
-  return std::clamp(turn_to_height(ball, rotation * kLeft, up), -kMostAnkle, kMostAnkle);
+  const Vec3 axis = rotation * kLeft;
+  const float level = std::abs(glm::cross(axis, ball).y) / glm::length(ball);
+  const float turn = std::clamp(turn_to_height(ball, axis, up), -kMostAnkle, kMostAnkle);
+  return turn * eased(0, 0.35f, level);
+}
+
+// A knee that would go through the floor kneels on it: the thigh turns up about the hip until the
+// knee rests, the shin follows from there. Gives the ankle; `pole` becomes the resting knee's.
+Vec3 kneeling(const Skeleton& skeleton, const Limb& limb, const Pose& pose, Vec3 ankle,
+              Vec3& pole) {
+  const WorldPose world = world_pose(skeleton, pose);
+  const Vec3 hip = world.position[index(limb.root)], knee = world.position[index(limb.middle)];
+  if (knee.y >= kKneeRadius) return ankle;
+  const float thigh = skeleton.bone(limb.middle), shin = skeleton.bone(limb.end);
+  const float down = std::min(hip.y - kKneeRadius, thigh);
+  const Vec3 out = normalized_or(Vec3(knee.x - hip.x, 0, knee.z - hip.z), kForward);
+  const Vec3 rests =
+      hip + out * std::sqrt(std::max(0.0f, thigh * thigh - down * down)) - kUp * down;
+  Vec3 along = normalized_or(ankle - rests, -kForward) * shin;
+  along.y = std::max(along.y, skeleton.ankle_height() * 0.6f - rests.y);
+  pole = rests - hip;
+  return rests + along;
 }
 
 // Eases a target beyond most of a limb's length, so that elbow and knee never snap straight.
@@ -121,6 +144,12 @@ void set_leg(const Skeleton& skeleton, Side side, const FootTarget& foot, Quat p
     ankle += (within_reach(hip, ankle, skeleton.leg_length()) - ankle) * foot.freedom;
   }
   solve_limb(skeleton, limb, {ankle, pole, 1.0f}, pose);
+  if (foot.freedom > 0) {
+    const Vec3 rests = kneeling(skeleton, limb, pose, ankle, pole);
+    if (rests != ankle) {
+      solve_limb(skeleton, limb, {ankle + (rests - ankle) * foot.freedom, pole, 1.0f}, pose);
+    }
+  }
   const WorldPose world = world_pose(skeleton, pose);
   const Quat shin = world.rotation[index(limb.middle)];
   const Quat standing = foot_rotation(foot);

@@ -178,7 +178,9 @@ void TrunkMotion::fill(float t, BodyTargets& targets) const {
       leaning(0, radians(lean.y) * 0.5f, radians(look.x)) * glm::angleAxis(-radians(look.y), kLeft);
   // A body that lies takes its head along.
   const float lying = eased(40, 75, glm::length(Vec2(lean.x, lean.y)));
-  const Quat along = targets.chest_rotation * glm::angleAxis(radians(12), kLeft);
+  // (on its side the neck gives way to the floor)
+  const Quat along = leaning(radians(lean.x), radians(lean.y) * 1.2f, radians(chest_yaw)) *
+                     glm::angleAxis(radians(12), kLeft);
   targets.head_rotation = glm::slerp(upright, in_hemisphere_of(along, upright), lying);
 }
 

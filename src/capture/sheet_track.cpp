@@ -180,6 +180,21 @@ void smooth(std::vector<Vec3>& values, float sigma_ticks) {
   values = std::move(result);
 }
 
+void smooth(std::vector<Quat>& rotations, float sigma_ticks) {
+  if (rotations.size() < 3) return;
+  // Turns from tick to tick, summed: between neighbours these average like vectors.
+  std::vector<Vec3> turns(rotations.size());
+  for (std::size_t i = 1; i < rotations.size(); ++i) {
+    const Quat now = in_hemisphere_of(rotations[i], rotations[i - 1]);
+    turns[i] = turns[i - 1] + rotation_vector(now * glm::inverse(rotations[i - 1]));
+  }
+  const std::vector<Vec3> raw = turns;
+  smooth(turns, sigma_ticks);
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    rotations[i] = glm::normalize(from_rotation_vector(turns[i] - raw[i]) * rotations[i]);
+  }
+}
+
 void widen(std::vector<float>& values, int reach) {
   const int last = static_cast<int>(values.size()) - 1;
   std::vector<float> wide(values.size());

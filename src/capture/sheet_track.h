@@ -53,6 +53,7 @@ class StrikePath {
 
 // Gaussian filter over ticks, zero phase; the ends keep their values.
 void smooth(std::vector<Vec3>& values, float sigma_ticks);
+void smooth(std::vector<Quat>& rotations, float sigma_ticks);
 
 // Largest value within `reach` ticks, then smoothed: never below the input, without kinks.
 void widen(std::vector<float>& values, int reach);
