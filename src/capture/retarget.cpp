@@ -10,6 +10,8 @@
 namespace ringcraft {
 namespace {
 
+constexpr double kLongestCapture = 1800;  // s: what is read cannot exhaust the program
+
 // How the capture's rest pose is laid on ours: per joint, the rotation that turns our rest bone to
 // its.
 struct RestFit {
@@ -215,6 +217,11 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   if (raw.frames < 2)
     return input_error(raw.file, "", "a capture of one frame is no motion",
                        "give a longer capture");
+  if (raw.seconds() > kLongestCapture)
+    return input_error(raw.file, "",
+                       fmt::format("a capture of {:.0f} s is longer than {:.0f} s", raw.seconds(),
+                                   kLongestCapture),
+                       "cut the file into shorter ones");
   auto fit = lay_on(raw, profile, target);
   if (!fit) return tl::unexpected(fit.error());
   Clip clip;

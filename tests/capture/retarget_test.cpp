@@ -169,6 +169,26 @@ TEST(Retarget, AMissingJointIsAnErrorThatNamesIt) {
   EXPECT_NE(clip.error().place.find("leftLowerLeg"), std::string::npos);
 }
 
+TEST(Retarget, BonesWithoutLengthDoNoHarm) {
+  const Skeleton skeleton = canonical_skeleton();
+  RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
+  for (const Joint joint :
+       {Joint::left_lower_arm, Joint::left_hand, Joint::right_toes, Joint::neck, Joint::head}) {
+    raw.joints[index(joint)].offset = {};
+    for (std::size_t f = 0; f < raw.frames; ++f) raw.translation[raw.at(f, index(joint))] = {};
+  }
+  const auto clip = retarget(raw, own_names(), skeleton);
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  EXPECT_TRUE(faults(*clip).empty()) << faults(*clip).front();
+}
+
+TEST(Retarget, ACaptureOfHoursIsRefused) {
+  const Skeleton skeleton = canonical_skeleton();
+  RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
+  raw.frame_seconds = 60;
+  EXPECT_FALSE(retarget(raw, own_names(), skeleton));
+}
+
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   double mean_a = 0, mean_b = 0;
   for (std::size_t i = 0; i < a.size(); ++i) mean_a += a[i], mean_b += b[i];
