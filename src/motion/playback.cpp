@@ -9,18 +9,21 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kStraightest = 0.98f;    // of the leg's length: beyond it the hips sink
-constexpr float kLoadSeconds = 0.12f;    // in which a foot that was set down takes the weight
-constexpr float kRiseRate = 12;          // 1/s: at which hips that sank come up again
-constexpr float kStepSpeed = 2.0f;       // m/s: mean speed of a long step of its own
-constexpr float kLongestWait = 0.12f;    // m: how far a clip's foot may go ahead of one that waits
-constexpr float kBetweenSteps = 0.05f;   // s: between two steps of its own
-constexpr float kLandingHeight = 0.05f;  // m: a foot above it is not down yet, whatever the label
-constexpr float kNearlyDown = 0.035f;    // m: a step that is broken off below it is over
-constexpr float kLandingSpeed = 0.8f;    // m/s: nor is one that moves faster over the ground
-constexpr float kLongest = 0.9995f;      // of a limb's length: where nothing is eased any more
-constexpr float kSoftReach = 0.97f;      // of the arm's length: beyond it a blended reach is eased
-constexpr float kToeLength = 0.04f;      // of the height: from the ball to the tip of the toes
+constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
+constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
+constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
+constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
+constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
+constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
+constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
+constexpr float kNearlyDown = 0.035f;     // m: a step that is broken off below it is over
+constexpr float kTouching = 0.008f;       // m: a foot lower than that and
+constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
+constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
+constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
+constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
+constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
+constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
@@ -274,8 +277,10 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
                settings_.restep_seconds);
     return;
   }
-  // 4. A step of its own that has arrived.
-  if (foot.mode == Mode::step && foot.offset.done()) {
+  // 4. A step of its own that has arrived, or that touches the floor on the way.
+  const bool touches =
+      height < kTouching && velocity.y < -kTouchingSpeed && astray > kTouchingAstray;
+  if (foot.mode == Mode::step && (foot.offset.done() || touches)) {
     stand(foot, floor);
   }
 }

@@ -125,10 +125,9 @@ TEST(Clip, LabelsFindAStepAndAKickWithinAFewTicksOfEachSwitch) {
   EXPECT_LE(wrong_labels(test::kick_clip(kSkeleton)), 2 * 10);
   Clip clip = test::step_clip(kSkeleton, {0, 0, 0.35f});
   label_contacts(kSkeleton, clip);
-  EXPECT_FALSE(clip.contacts_at(18).left);
-  EXPECT_TRUE(clip.contacts_at(18).right);
-  EXPECT_TRUE(clip.contacts_at(42).left);
-  EXPECT_FALSE(clip.contacts_at(42).right);
+  const Tick first = clip.length() * 3 / 10, second = clip.length() * 7 / 10;
+  EXPECT_EQ(clip.contacts_at(first), (FootContacts{false, true}));
+  EXPECT_EQ(clip.contacts_at(second), (FootContacts{true, false}));
 }
 
 TEST(Clip, LabelsCloseGapsAndBlips) {

@@ -172,6 +172,53 @@ TEST(Ik, ATargetInTheRootFoldsTheLimbNoFartherThanFleshAllows) {
   }
 }
 
+TEST(Ik, MovingALimbsEndReachesTheTargetAndLeavesALimbThatIsThereAlone) {
+  const Skeleton skeleton = canonical_skeleton();
+  Random random(14);
+  for (int n = 0; n < 400; ++n) {
+    const Limb limb = kLimbs[static_cast<std::size_t>(n % 4)];
+    Pose pose = rest_pose(skeleton);
+    const Vec3 root = world_pose(skeleton, pose).position[index(limb.root)];
+    const Vec3 way = glm::normalize(Vec3(random.normal(), random.normal(), random.normal()));
+    const float length = length_of(skeleton, limb);
+    solve_limb(skeleton, limb,
+               {root + way * (length * random.uniform(0.4f, 0.97f)),
+                {random.normal(), random.normal(), random.normal()}},
+               pose);
+    // A captured joint is no perfect hinge.
+    const Vec3 off_axis = 0.05f * Vec3(random.normal(), random.normal(), random.normal());
+    pose.rotation[index(limb.middle)] =
+        from_rotation_vector(off_axis) * pose.rotation[index(limb.middle)];
+    const WorldPose world = world_pose(skeleton, pose);
+    Pose same = pose;
+    move_limb_end(skeleton, limb, world.position[index(limb.end)], 0.9995f, same);
+    EXPECT_POSE_NEAR(skeleton, same, pose, 0.02f) << "case " << n;
+
+    Vec3 target = world.position[index(limb.end)];
+    target += 0.2f * length * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0);
+    if (glm::distance(target, root) > 0.97f * length) continue;
+    if (glm::distance(target, root) < 0.3f * length) continue;
+    move_limb_end(skeleton, limb, target, 0.98f, pose);
+    const WorldPose moved = world_pose(skeleton, pose);
+    EXPECT_POINT_NEAR(moved.position[index(limb.end)], target, 0.05f) << "case " << n;
+    const Quat turned =
+        moved.rotation[index(limb.end)] * glm::inverse(world.rotation[index(limb.end)]);
+    EXPECT_NEAR(glm::length(rotation_vector(turned)), 0, 2e-3f);
+  }
+}
+
+TEST(Ik, MovingALimbsEndSetsAJointRightThatBendsBackwards) {
+  const Skeleton skeleton = canonical_skeleton();
+  for (const Limb& limb : kLimbs) {
+    Pose pose = rest_pose(skeleton);
+    pose.rotation[index(limb.middle)] = glm::angleAxis(-0.3f, hinge_axis(limb));
+    const Vec3 end = world_pose(skeleton, pose).position[index(limb.end)];
+    move_limb_end(skeleton, limb, end, 0.9995f, pose);
+    EXPECT_GT(glm::dot(rotation_vector(pose.rotation[index(limb.middle)]), hinge_axis(limb)), 0.2f);
+    EXPECT_POINT_NEAR(world_pose(skeleton, pose).position[index(limb.end)], end, 0.02f);
+  }
+}
+
 TEST(Ik, ThePresentPoleReproducesTheLimb) {
   const Skeleton skeleton = canonical_skeleton();
   for (const Limb& limb : kLimbs) {

@@ -12,7 +12,7 @@ namespace ringcraft::test {
 
 // What a body does at one instant, in action space; metres and radians.
 struct Stance {
-  Vec3 hips{0, 0.87f, 0};
+  Vec3 hips{0, 0.84f, 0};
   float hips_yaw = -0.5f;  // bladed: the left side leads
   float chest_yaw = 0;     // on top of the hips', spread over the spine
   // Balls of the feet; y is the height above standing.
@@ -42,7 +42,10 @@ inline Pose posed(const Skeleton& skeleton, const Stance& stance) {
     ball.y += skeleton.toe_height();
     LimbTarget target;
     target.position = ball - foot * skeleton.offset[index(toes(side))];
-    target.pole = yaw_rotation(left ? stance.left_yaw : stance.right_yaw) * kForward;
+    // The knee bends about an axis between the hips' and the foot's.
+    const float knee_yaw = (stance.hips_yaw + (left ? stance.left_yaw : stance.right_yaw)) / 2;
+    const Vec3 hip = world_pose(skeleton, pose).position[index(leg(side).root)];
+    target.pole = glm::cross(target.position - hip, yaw_rotation(knee_yaw) * kLeft);
     target.soft_share = 0.995f;
     solve_limb(skeleton, leg(side), target, pose);
     set_world_rotation(skeleton, leg(side).end, foot, pose);
@@ -111,7 +114,7 @@ inline Clip jab_clip(const Skeleton& skeleton, Tick length = 60) {
         stance.hips.z += 0.06f * out;
         stance.chest_yaw = -0.4f * out;
         stance.right_heel += 0.2f * out;
-        stance.left_hand += (Vec3(0.02f, 1.45f, 0.80f) - stance.left_hand) * out;
+        stance.left_hand += (Vec3(0.02f, 1.42f, 0.66f) - stance.left_hand) * out;
         return stance;
       },
       both, in_place);
@@ -119,7 +122,7 @@ inline Clip jab_clip(const Skeleton& skeleton, Tick length = 60) {
 
 // A step by `way` on the ground: the left foot over t 0.1..0.5, the right one over 0.5..0.9, in an
 // arc 6 cm high.
-inline Clip step_clip(const Skeleton& skeleton, Vec3 way, Tick length = 60) {
+inline Clip step_clip(const Skeleton& skeleton, Vec3 way, Tick length = 84) {
   return clip_of(
       skeleton, length,
       [way](float t) {
@@ -141,14 +144,14 @@ inline Clip step_clip(const Skeleton& skeleton, Vec3 way, Tick length = 60) {
 }
 
 // A kick of the rear leg to hip height; the foot is up over t 0.1..0.9.
-inline Clip kick_clip(const Skeleton& skeleton, Tick length = 84) {
+inline Clip kick_clip(const Skeleton& skeleton, Tick length = 120) {
   return clip_of(
       skeleton, length,
       [](float t) {
         Stance stance;
         const float out = bump(t, 0.1f, 0.9f);
         stance.hips += Vec3(0.06f, 0.02f, 0.12f) * out;
-        stance.right_ball += (Vec3(-0.05f, 0.85f, 0.75f) - stance.right_ball) * out;
+        stance.right_ball += (Vec3(-0.08f, 0.75f, 0.55f) - stance.right_ball) * out;
         stance.right_yaw += 0.8f * out;
         stance.right_heel += 0.5f * out;
         return stance;

@@ -1,0 +1,489 @@
+#include "motion/playback.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "motion/pose_near.h"
+#include "motion/synthetic.h"
+
+namespace ringcraft {
+namespace {
+
+const Skeleton kSkeleton = canonical_skeleton();
+constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
+
+// What is shown, tick by tick.
+struct Shown {
+  std::vector<Pose> poses;
+  std::vector<WorldPose> world;
+  std::vector<FootContacts> held;
+
+  void add(const Playback& playback) {
+    poses.push_back(playback.shown());
+    world.push_back(world_pose(kSkeleton, playback.shown()));
+    held.push_back(playback.held());
+  }
+  std::size_t size() const { return poses.size(); }
+  Vec3 at(std::size_t tick, Joint joint) const { return world[tick].position[index(joint)]; }
+};
+
+// Plays `clip` at `start` for `count` ticks from its first frame on, stitched to what is shown.
+void play(Playback& playback, const Clip& clip, const Placement& start, Tick count, Shown& shown) {
+  playback.stitch(placed(clip.at(0), start), placed(clip.at(1), start));
+  for (Tick tick = 0; tick < count; ++tick) {
+    playback.next(placed(clip.at(tick), start), clip.contacts_at(tick));
+    shown.add(playback);
+  }
+}
+
+// Largest change of a joint's velocity between two frames at 60 Hz, m/s.
+float velocity_jump(const Shown& shown, std::size_t from, std::size_t to) {
+  float largest = 0;
+  for (std::size_t t = std::max<std::size_t>(from, 4); t < std::min(to, shown.size()); ++t) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Vec3 a = shown.world[t - 4].position[j], b = shown.world[t - 2].position[j],
+                 c = shown.world[t].position[j];
+      largest = std::max(largest, glm::length(c - 2.0f * b + a) * 60);
+    }
+  }
+  return largest;
+}
+float velocity_jump(const Shown& shown) {
+  return velocity_jump(shown, 0, shown.size());
+}
+
+// Largest distance of a joint from where it would be had it gone on as before, m.
+float position_jump(const Shown& shown) {
+  float largest = 0;
+  for (std::size_t t = 2; t < shown.size(); ++t) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Vec3 a = shown.world[t - 2].position[j], b = shown.world[t - 1].position[j],
+                 c = shown.world[t].position[j];
+      largest = std::max(largest, glm::length(c - 2.0f * b + a));
+    }
+  }
+  return largest;
+}
+
+// The same of the clip alone.
+Shown alone(const Clip& clip) {
+  Shown shown;
+  for (const Pose& pose : clip.frames) {
+    shown.poses.push_back(pose);
+    shown.world.push_back(world_pose(kSkeleton, pose));
+  }
+  return shown;
+}
+
+// Foot skate after validation.md V4, at 60 Hz: ankle and toes within 3 cm of their standing height
+// while the slower of the two moves at 0.15-0.8 m/s over the ground, for 0.15 s on end.
+float skate_ratio(const Shown& shown) {
+  std::size_t skating = 0, total = 0;
+  for (const Side side : kSides) {
+    const Joint ankle = leg(side).end, ball = toes(side);
+    std::size_t run = 0;
+    for (std::size_t t = 2; t < shown.size(); t += 2) {
+      const auto speed = [&](Joint joint) {
+        const Vec3 v = shown.at(t, joint) - shown.at(t - 2, joint);
+        return 60 * glm::length(Vec3(v.x, 0, v.z));
+      };
+      const bool low = shown.at(t, ankle).y < kSkeleton.ankle_height() + 0.03f &&
+                       shown.at(t, ball).y < kSkeleton.toe_height() + 0.03f;
+      const float slower = std::min(speed(ankle), speed(ball));
+      run = low && slower > 0.15f && slower < 0.8f ? run + 1 : 0;
+      if (run == 9) skating += 9;
+      if (run > 9) ++skating;
+      ++total;
+    }
+  }
+  return static_cast<float>(skating) / static_cast<float>(total);
+}
+
+// Largest way of a ball of the foot within one tick while it is held, m.
+float held_motion(const Shown& shown) {
+  float largest = 0;
+  for (std::size_t t = 1; t < shown.size(); ++t) {
+    for (const Side side : kSides) {
+      if (!shown.held[t].of(side) || !shown.held[t - 1].of(side)) continue;
+      largest =
+          std::max(largest, glm::distance(shown.at(t, toes(side)), shown.at(t - 1, toes(side))));
+    }
+  }
+  return largest;
+}
+
+// Deepest a sole goes under the floor, m: ball, heel and tip of the toes.
+float deepest_sole(const Shown& shown) {
+  float deepest = 0;
+  for (std::size_t t = 0; t < shown.size(); ++t) {
+    for (const Side side : kSides) {
+      const std::size_t ankle = index(leg(side).end), ball = index(toes(side));
+      const WorldPose& w = shown.world[t];
+      const Vec3 heel = w.position[ankle] - w.rotation[ankle] * (kUp * kSkeleton.ankle_height());
+      const Vec3 tip = w.position[ball] + w.rotation[ball] * (kForward * 0.07f);
+      deepest = std::max(deepest, kSkeleton.toe_height() - w.position[ball].y);
+      deepest = std::max(deepest, -heel.y);
+      deepest = std::max(deepest, kSkeleton.toe_height() - tip.y);
+    }
+  }
+  return deepest;
+}
+
+// Largest change of a knee's flexion within one tick, rad.
+float knee_speed(const Shown& shown) {
+  float largest = 0;
+  for (std::size_t t = 1; t < shown.size(); ++t) {
+    for (const Side side : kSides) {
+      const std::size_t knee = index(leg(side).middle);
+      const Quat change =
+          shown.poses[t].rotation[knee] * glm::inverse(shown.poses[t - 1].rotation[knee]);
+      largest = std::max(largest, glm::length(rotation_vector(change)));
+    }
+  }
+  return largest;
+}
+
+// Least flexion of an elbow about its hinge, rad.
+float least_elbow(const Shown& shown) {
+  float least = kPi;
+  for (const Pose& pose : shown.poses) {
+    for (const Side side : kSides) {
+      const Vec3 turn = rotation_vector(pose.rotation[index(arm(side).middle)]);
+      least = std::min(least, glm::dot(turn, hinge_axis(arm(side))));
+    }
+  }
+  return least;
+}
+
+constexpr float kAddedJump = 1.5f;  // m/s within 1/60 s that a seam may add to the clips' own
+constexpr float kStill = 0.001f;    // m within a tick
+
+const std::vector<Clip>& boxing() {
+  static const std::vector<Clip> clips = {test::idle_clip(kSkeleton), test::jab_clip(kSkeleton),
+                                          test::step_clip(kSkeleton, {0, 0, 0.15f}),
+                                          test::step_clip(kSkeleton, {0.1f, 0, -0.1f})};
+  return clips;
+}
+
+// Clips in a row, each where the last one ended but for an error like those of the state machine's
+// edges, and each broken off after a random share of its length if `broken`.
+Shown random_chain(std::uint64_t seed, int count, bool broken) {
+  Random random(seed);
+  Playback playback(kSkeleton);
+  Shown shown;
+  Placement at;
+  for (int i = 0; i < count; ++i) {
+    const Clip& clip = boxing()[static_cast<std::size_t>(random.below(4))];
+    const Tick ticks = broken ? 6 + random.below(clip.length() - 6) : clip.length();
+    play(playback, clip, at, ticks, shown);
+    const Placement error{random.uniform(-0.06f, 0.06f), random.uniform(-0.06f, 0.06f),
+                          random.uniform(-0.2f, 0.2f)};
+    at = at * clip.root_at(ticks) * error;
+  }
+  return shown;
+}
+
+TEST(Playback, ADecayStartsWithItsValueAndVelocityAndEndsAtRest) {
+  Decay decay({0.2f, 0, -0.1f}, {1, -2, 0.5f}, 0.24f);
+  EXPECT_POINT_NEAR(decay.value(), Vec3(0.2f, 0, -0.1f), 1e-4f);
+  Decay next = decay;
+  next.step(1e-3f);
+  EXPECT_POINT_NEAR((next.value() - decay.value()) / 1e-3f, Vec3(1, -2, 0.5f), 1.0f);
+  next.step(0.2379f);
+  EXPECT_POINT_NEAR(next.value(), Vec3(), 1e-3f);
+  next.step(0.01f);
+  EXPECT_TRUE(next.done());
+  EXPECT_EQ(next.value(), Vec3());
+}
+
+TEST(Playback, ShowsAClipAsItIsWhereNothingNeedsMending) {
+  const Clip kick = test::kick_clip(kSkeleton);
+  std::vector<Clip> clips = boxing();
+  clips.push_back(kick);
+  for (const Clip& clip : clips) {
+    Playback playback(kSkeleton);
+    Shown shown;
+    play(playback, clip, {0.3f, -1, 2}, clip.length() + 1, shown);
+    for (Tick tick = 0; tick <= clip.length(); ++tick) {
+      EXPECT_POSE_NEAR(kSkeleton, shown.poses[static_cast<std::size_t>(tick)],
+                       placed(clip.at(tick), {0.3f, -1, 2}), 0.3f);
+    }
+  }
+}
+
+TEST(Playback, ASeamNeitherJumpsNorJerks) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Shown shown = random_chain(seed, 12, false);
+    EXPECT_LT(position_jump(shown), 0.02f) << "seed " << seed;
+    EXPECT_LT(velocity_jump(shown), kAddedJump) << "seed " << seed;
+  }
+}
+
+TEST(Playback, AClipBrokenOffInTheMiddleOfABlendNeitherJumpsNorJerks) {
+  float clips = 0;
+  for (const Clip& clip : boxing()) clips = std::max(clips, velocity_jump(alone(clip)));
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Shown shown = random_chain(seed, 20, true);
+    EXPECT_LT(position_jump(shown), 0.02f) << "seed " << seed;
+    EXPECT_LT(velocity_jump(shown), clips + kAddedJump) << "seed " << seed;
+  }
+}
+
+TEST(Playback, HeldFeetStandStillAndNothingSkates) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (const bool broken : {false, true}) {
+      const Shown shown = random_chain(seed, 20, broken);
+      EXPECT_LT(held_motion(shown), kStill) << "seed " << seed;
+      // Clips played out never skate. Broken off at random every 0.3 s, a foot may be caught low.
+      EXPECT_LE(skate_ratio(shown), broken ? 0.02f : 0.0f) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Playback, OneFootCarriesWhileTheOtherIsMoved) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Shown shown = random_chain(seed, 20, false);
+    std::size_t both_moved = 0;
+    for (std::size_t t = 1; t < shown.size(); ++t) {
+      const auto moved = [&](Side side) {
+        return glm::distance(shown.at(t, toes(side)), shown.at(t - 1, toes(side))) > kStill;
+      };
+      both_moved += moved(Side::left) && moved(Side::right);
+    }
+    EXPECT_LT(both_moved, shown.size() / 50) << "seed " << seed;
+  }
+}
+
+TEST(Playback, SolesStayAboveTheFloor) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EXPECT_LT(deepest_sole(random_chain(seed, 20, true)), 0.002f) << "seed " << seed;
+  }
+  // Even of a clip that wades.
+  Clip wading = test::jab_clip(kSkeleton);
+  for (Pose& pose : wading.frames) pose.hips.y -= 0.06f;
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, wading, {}, wading.length(), shown);
+  EXPECT_LT(deepest_sole(shown), 0.002f);
+}
+
+TEST(Playback, AFootLeftBehindTakesAStepAndArrives) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, idle, {}, 30, shown);
+  const Placement there{0.1f, 0.12f, 0.3f};
+  play(playback, idle, there, 150, shown);
+  const WorldPose wanted = world_pose(kSkeleton, placed(idle.at(149), there));
+  for (const Side side : kSides) {
+    float lift = 0;
+    for (std::size_t t = 0; t < shown.size(); ++t) {
+      lift = std::max(lift, shown.at(t, toes(side)).y - kSkeleton.toe_height());
+    }
+    EXPECT_GT(lift, 0.03f);
+    EXPECT_LT(lift, 0.08f);
+    EXPECT_POINT_NEAR(shown.world.back().position[index(toes(side))],
+                      wanted.position[index(toes(side))], 0.5f);
+  }
+  EXPECT_LT(held_motion(shown), kStill);
+  EXPECT_EQ(skate_ratio(shown), 0);
+  EXPECT_LT(velocity_jump(shown), kAddedJump);
+}
+
+TEST(Playback, AFootThatIsNearEnoughStaysWhereItIs) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, idle, {}, 30, shown);
+  play(playback, idle, {0.03f, 0.02f, 0}, 150, shown);
+  for (const Side side : kSides) {
+    EXPECT_POINT_NEAR(shown.at(shown.size() - 1, toes(side)), shown.at(0, toes(side)), 0.1f);
+  }
+}
+
+TEST(Playback, AFootInTheAirLandsWhereTheNewClipStandsOnIt) {
+  const Clip kick = test::kick_clip(kSkeleton), idle = test::idle_clip(kSkeleton, 240);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, kick, {}, kick.length() / 2, shown);
+  ASSERT_GT(shown.at(shown.size() - 1, Joint::right_toes).y, 0.5f);
+  play(playback, idle, {}, 120, shown);
+  EXPECT_LT(position_jump(shown), 0.02f);
+  EXPECT_LT(velocity_jump(shown), velocity_jump(alone(kick)) + kAddedJump);
+  EXPECT_TRUE(shown.held.back().right);
+  EXPECT_POINT_NEAR(shown.world.back().position[index(Joint::right_toes)],
+                    world_pose(kSkeleton, idle.at(119)).position[index(Joint::right_toes)], 0.5f);
+  EXPECT_EQ(skate_ratio(shown), 0);
+  EXPECT_LT(deepest_sole(shown), 0.002f);
+}
+
+TEST(Playback, HipsSinkRatherThanAFootIsDragged) {
+  // The clip stands up so tall that a foot held a little to the side is out of reach.
+  const Clip tall = test::clip_of(
+      kSkeleton, 120,
+      [](float t) {
+        test::Stance stance;
+        stance.right_heel = 0;
+        stance.hips.y = 0.84f + 0.075f * test::ramp(t, 0.2f, 0.6f);
+        stance.left_ball = {0.1f, 0, 0.15f};
+        stance.right_ball = {-0.1f, 0, -0.15f};
+        return stance;
+      },
+      test::both, test::in_place);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, tall, {}, 12, shown);
+  play(playback, tall, {0, 0.05f, 0}, 120, shown);
+  float sunk = 0;
+  for (std::size_t t = 12; t < shown.size(); ++t) {
+    sunk = std::max(sunk, tall.at(static_cast<Tick>(t) - 12).hips.y - shown.poses[t].hips.y);
+    for (const Side side : kSides) {
+      EXPECT_POINT_NEAR(shown.at(t, toes(side)), shown.at(0, toes(side)), 0.1f);
+    }
+  }
+  EXPECT_GT(sunk, 0.01f);
+  EXPECT_LT(knee_speed(shown), 0.1f);
+  EXPECT_LT(velocity_jump(shown), kAddedJump);
+}
+
+TEST(Playback, KneesDoNotPop) {
+  float clips = 0;
+  for (const Clip& clip : boxing()) {
+    Shown shown = alone(clip);
+    clips = std::max(clips, knee_speed(shown));
+  }
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    EXPECT_LT(knee_speed(random_chain(seed, 20, true)), clips + 0.08f) << "seed " << seed;
+  }
+}
+
+TEST(Playback, ElbowsDoNotBendBackwardsWhenAPunchIsBrokenOff) {
+  const Clip jab = test::jab_clip(kSkeleton, 40), idle = test::idle_clip(kSkeleton);
+  for (Tick ticks = 4; ticks < 40; ticks += 2) {
+    Playback playback(kSkeleton);
+    Shown shown;
+    play(playback, idle, {}, 20, shown);
+    play(playback, jab, {}, ticks, shown);
+    play(playback, idle, {0.05f, 0, 0.1f}, 60, shown);
+    EXPECT_GT(least_elbow(shown), 0) << "broken off at " << ticks;
+    EXPECT_LT(position_jump(shown), 0.02f) << "broken off at " << ticks;
+  }
+}
+
+TEST(Playback, AFlatSoleLiesFlatWhileItIsHeld) {
+  const auto standing = [](float left_heel, float left_yaw) {
+    return test::clip_of(
+        kSkeleton, 120,
+        [=](float) {
+          test::Stance stance;
+          stance.left_heel = left_heel;
+          stance.left_yaw = left_yaw;
+          return stance;
+        },
+        test::both, test::in_place);
+  };
+  const auto tilt = [](const Shown& shown, std::size_t t) {
+    return std::acos(std::min(1.0f, (shown.world[t].rotation[index(Joint::left_foot)] * kUp).y));
+  };
+  {  // Flat before and after, turned in between: flat all the time, while the hips rise and turn.
+    Playback playback(kSkeleton);
+    Shown shown;
+    play(playback, standing(0, -0.1f), {}, 20, shown);
+    play(playback, standing(0, 0.5f), {0.02f, 0.03f, 0.2f}, 60, shown);
+    for (std::size_t t = 0; t < shown.size(); ++t) EXPECT_LT(tilt(shown, t), 0.01f) << t;
+  }
+  {  // The heel is up before: down as soon as the blend is over.
+    Playback playback(kSkeleton);
+    Shown shown;
+    play(playback, standing(0.5f, -0.1f), {}, 20, shown);
+    EXPECT_NEAR(tilt(shown, 19), 0.5f, 0.01f);
+    play(playback, standing(0, -0.1f), {0.02f, 0.03f, 0.2f}, 60, shown);
+    EXPECT_LT(tilt(shown, 20 + static_cast<std::size_t>(ticks(PlaybackSettings().blend_seconds))),
+              0.01f);
+    EXPECT_LT(deepest_sole(shown), 0.002f);
+  }
+}
+
+// A body thrown back from `start`: the hips fly and sink, the trunk bends, an arm swings.
+std::vector<Pose> thrown(const Pose& start, Vec3 velocity, float spin, Tick count) {
+  std::vector<Pose> poses;
+  for (Tick tick = 1; tick <= count; ++tick) {
+    const float t = static_cast<float>(tick) * kTickSeconds, s = t * t / (t + 0.05f);
+    Pose pose = start;
+    pose.hips += velocity * s;
+    pose.rotation[0] = glm::angleAxis(-0.3f * spin * s, kLeft) * pose.rotation[0];
+    pose.rotation[index(Joint::chest)] =
+        glm::angleAxis(-spin * s, kLeft) * pose.rotation[index(Joint::chest)];
+    pose.rotation[index(Joint::left_upper_arm)] =
+        glm::angleAxis(spin * s, kForward) * pose.rotation[index(Joint::left_upper_arm)];
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+TEST(Playback, AfterASimulationTheBodyGoesOnFromItsPoseAndVelocity) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  for (const float spin : {1.0f, 3.0f, -2.0f}) {
+    for (const Vec3& velocity : {Vec3(0, -0.1f, -0.8f), Vec3(0.7f, -0.3f, -0.2f)}) {
+      Playback playback(kSkeleton);
+      Shown shown;
+      play(playback, idle, {}, 20, shown);
+      for (const Pose& pose : thrown(playback.shown(), velocity, spin, 24)) {
+        playback.next_simulated(pose);
+        shown.add(playback);
+        EXPECT_POSE_NEAR(kSkeleton, playback.shown(), pose, 0);
+        EXPECT_EQ(playback.held(), FootContacts());
+      }
+      play(playback, idle, {0.1f * velocity.x, 0.1f * velocity.z, 0.2f}, 160, shown);
+      EXPECT_LT(position_jump(shown), 0.02f);
+      EXPECT_LT(velocity_jump(shown, 44, shown.size()), kAddedJump);
+      EXPECT_EQ(shown.held.back(), (FootContacts{true, true}));
+      EXPECT_LT(held_motion(shown), kStill);
+    }
+  }
+}
+
+TEST(Playback, AFootSimulatedIntoTheFloorComesUpWithoutAJump) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Playback playback(kSkeleton);
+  Shown shown;
+  Pose sunk = idle.at(0);
+  sunk.hips.y -= 0.03f;
+  for (int i = 0; i < 5; ++i) {
+    playback.next_simulated(sunk);
+    shown.add(playback);
+  }
+  play(playback, idle, {}, 60, shown);
+  EXPECT_LT(position_jump(shown), 0.005f);
+  EXPECT_NEAR(shown.at(shown.size() - 1, Joint::left_toes).y, kSkeleton.toe_height(), 1e-3f);
+}
+
+TEST(Playback, AScaledBodyStandsOnTheSameFloor) {
+  const Skeleton tall = canonical_skeleton(1.95f);
+  const float factor = tall.height / kCanonicalHeight;
+  Playback playback(tall);
+  const Clip jab = test::jab_clip(kSkeleton);
+  for (Tick tick = 0; tick <= jab.length(); ++tick) {
+    const Pose pose = scaled(jab.at(tick), factor);
+    EXPECT_POSE_NEAR(tall, playback.next(pose, jab.contacts_at(tick)), pose, 0.3f);
+  }
+}
+
+TEST(Playback, ACopyGoesOnBitByBit) {
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, boxing()[1], {}, 20, shown);
+  play(playback, boxing()[2], {0.05f, 0, 0.1f}, 11, shown);
+  Playback twin = playback;
+  Shown a, b;
+  play(playback, boxing()[0], {0.1f, 0, 0}, 50, a);
+  play(twin, boxing()[0], {0.1f, 0, 0}, 50, b);
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    EXPECT_EQ(a.poses[t].hips, b.poses[t].hips);
+    EXPECT_EQ(a.poses[t].rotation, b.poses[t].rotation);
+    EXPECT_EQ(a.held[t], b.held[t]);
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
