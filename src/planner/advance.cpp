@@ -140,7 +140,7 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     fault += kHitFault + answer.damage / 10;
   }
   if (victim.balance == 2) return;  // lies already
-  if (!interrupts(met.contact.blocked, answer.outcome)) return;
+  if (!interrupts(met.contact.blocked, answer.impulse, answer.outcome)) return;
   victim.pending = answer.response;
   victim.knocked_out = answer.outcome.knockout;
   victim.flight.launch.end = met.tick;
@@ -241,17 +241,18 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
   const PruneSettings& prune = setup_->settings.prune;
   const InFlight& self = node.side[static_cast<std::size_t>(mover)].flight;
   const InFlight& other = node.side[static_cast<std::size_t>(1 - mover)].flight;
-  float deepest = 0;
+  const auto least = static_cast<float>(prune.penetration_m);
   const Tick every = std::max<Tick>(1, prune.penetration_every);
   for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-    deepest = std::max(deepest, penetration_at(self, other, tick));
+    float deepest = penetration_at(self, other, tick, least);
     for (const Bystander& one : setup_->others) {
-      deepest = std::max(deepest, penetration_at(self, one.flight, tick));
+      deepest = std::max(deepest, penetration_at(self, one.flight, tick, least));
     }
+    if (deepest <= 0) continue;
+    ++counts_.penetration;
+    return 1 + static_cast<std::int32_t>(deepest * 1000);  // mm, at the first tick that is too deep
   }
-  if (static_cast<double>(deepest) <= prune.penetration_m) return 0;
-  ++counts_.penetration;
-  return 1 + static_cast<std::int32_t>(deepest * 1000);  // mm
+  return 0;
 }
 
 std::int32_t Duel::advance(Node& node, const Move& move) {

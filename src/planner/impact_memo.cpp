@@ -24,9 +24,9 @@ int elevation_step(Vec3 direction) {
   return static_cast<int>(std::clamp<long>(std::lround(std::asin(sine) / radians(45)), -1, 1)) + 1;
 }
 
-Vec3 direction_of(int azimuth, int elevation) {
+Vec3 direction_of(int azimuth, int azimuths, int elevation) {
   const float up = static_cast<float>(elevation - 1) * radians(45);
-  return yaw_rotation(turn_of(azimuth, kMemoAzimuths)) * Vec3(0, std::sin(up), std::cos(up));
+  return yaw_rotation(turn_of(azimuth, azimuths)) * Vec3(0, std::sin(up), std::cos(up));
 }
 
 int step_of(float value, float step, int most) {
@@ -58,8 +58,8 @@ class Packer {
 
 }  // namespace
 
-bool interrupts(bool blocked, const ImpactOutcome& outcome) {
-  return !blocked || outcome.response != ResponseKind::absorb;
+bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
+  return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
 }
 
 std::size_t ImpactMemo::KeyHash::operator()(const Key& key) const {
@@ -86,26 +86,29 @@ ImpactMemo::Key ImpactMemo::ImpulseSteps::key() const {
   return {p.a(), p.b()};
 }
 
-ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies) : bodies_(std::move(bodies)) {}
+ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps)
+    : bodies_(std::move(bodies)), size_(steps) {}
 
 ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
-  const Vec3 line = -blow.contact.normal;
+  // Between the striker's way and the surface's inner normal, as the line of the blow is (blow_of).
+  const Vec3 inward = -blow.contact.normal;
+  const Vec3 line = normalized_or(inward + normalized_or(blow.contact.velocity, inward), inward);
   const float speed = std::max(0.0f, glm::dot(blow.contact.velocity, line));
   BlowSteps steps{};
   steps.attacker = blow.attacker;
   steps.victim = blow.victim;
   steps.attack = blow.attack;
   steps.struck_action = blow.struck_action;
-  steps.attack_age = std::max(0, blow.attack_age) / kMemoTicks;
-  steps.struck_age = std::max(0, blow.struck_age) / kMemoTicks;
+  steps.attack_age = std::max(0, blow.attack_age) / size_.ticks;
+  steps.struck_age = std::max(0, blow.struck_age) / size_.ticks;
   steps.kind = blow.kind;
   steps.striker = blow.contact.striker;
   steps.struck = blow.contact.struck;
   steps.blocked = blow.contact.blocked;
-  steps.azimuth = turn_step(yaw_of(line), kMemoAzimuths);
+  steps.azimuth = turn_step(yaw_of(line), size_.azimuths);
   steps.elevation = elevation_step(line);
   steps.yaw = turn_step(blow.attacker_yaw, kYaws);
-  steps.speed = step_of(speed, kMemoSpeed, 255);
+  steps.speed = step_of(speed, size_.speed, 255);
   return steps;
 }
 
@@ -114,8 +117,9 @@ ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
 Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
   const MotionTables& attacker = *bodies_[static_cast<std::size_t>(steps.attacker)];
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
-  const Tick attack_age = steps.attack_age * kMemoTicks, struck_age = steps.struck_age * kMemoTicks;
-  const Vec3 line = direction_of(steps.azimuth, steps.elevation);
+  const Tick attack_age = steps.attack_age * size_.ticks,
+             struck_age = steps.struck_age * size_.ticks;
+  const Vec3 line = direction_of(steps.azimuth, size_.azimuths, steps.elevation);
 
   const Capsule struck = part_capsule(victim, steps.struck_action, struck_age, steps.struck);
   Contact contact;
@@ -124,7 +128,7 @@ Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
   contact.blocked = steps.blocked;
   contact.normal = -line;
   contact.point = (struck.a + struck.b) * 0.5f + contact.normal * struck.radius;
-  contact.velocity = line * (static_cast<float>(steps.speed) * kMemoSpeed);
+  contact.velocity = line * (static_cast<float>(steps.speed) * size_.speed);
 
   const Frame turned(Placement{0, 0, turn_of(steps.yaw, kYaws)});
   const Capsule own = part_capsule(attacker, steps.attack, attack_age, steps.striker);
@@ -144,21 +148,21 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impuls
   steps.struck_age = blow.struck_age;
   steps.struck = blow.struck;
   steps.blocked = blow.blocked;
-  steps.azimuth = turn_step(yaw_of(impulse), kMemoAzimuths);
+  steps.azimuth = turn_step(yaw_of(impulse), size_.azimuths);
   steps.elevation = elevation_step(impulse);
-  steps.impulse = step_of(glm::length(impulse), kMemoImpulse, 1000);
+  steps.impulse = step_of(glm::length(impulse), size_.impulse, 1000);
   return steps;
 }
 
 ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
   const ActionTable& action = victim.at(steps.struck_action);
-  const Tick age = action.clamped(steps.struck_age * kMemoTicks);
-  const Vec3 line = direction_of(steps.azimuth, steps.elevation);
+  const Tick age = action.clamped(steps.struck_age * size_.ticks);
+  const Vec3 line = direction_of(steps.azimuth, size_.azimuths, steps.elevation);
   const Capsule struck = action.capsules_at(age)[index(steps.struck)];
 
   ImpactAnswer answer;
-  answer.impulse = static_cast<float>(steps.impulse) * kMemoImpulse;
+  answer.impulse = static_cast<float>(steps.impulse) * size_.impulse;
   ImpactInput input;
   input.pose = action.pose_at(age);
   input.pose_before = action.pose_at(age - 1);
@@ -172,7 +176,8 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
   input.blow.impulse = line * answer.impulse;
   input.blow.blocked = steps.blocked;
   input.contacts = action.action->clip.contacts_at(age);
-  answer.outcome = impulse_step(victim.body(), input);
+  // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
+  if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input);
   answer.response = choose_response(victim.library(), answer.outcome, action.root_at(age).yaw);
   answer.damage = damage_of(input.blow, answer.outcome);
   return answer;

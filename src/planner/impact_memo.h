@@ -15,11 +15,12 @@
 namespace ringcraft {
 
 // Steps of the quantisation.
-inline constexpr Tick kMemoTicks = 4;        // of the victim's and the attacker's action
-inline constexpr int kMemoAzimuths = 12;     // directions of the blow around the victim: 30 degrees
-inline constexpr int kMemoElevations = 3;    // from below, level, from above: 45 degrees
-inline constexpr float kMemoSpeed = 0.5f;    // m/s
-inline constexpr float kMemoImpulse = 2.0f;  // N s
+struct MemoSteps {
+  Tick ticks = 4;        // of the victim's and the attacker's action
+  int azimuths = 12;     // directions of the blow around the victim, 30 degrees each
+  float speed = 0.5f;    // m/s
+  float impulse = 2.0f;  // N s
+};
 
 // A landed blow as the tree meets it. Bodies are indices into the memo's tables.
 struct LandedBlow {
@@ -40,12 +41,16 @@ struct ImpactAnswer {
   bool operator==(const ImpactAnswer&) const = default;
 };
 
-// Whether a blow cuts the struck fighter's action. A guard that holds without a step goes on.
-bool interrupts(bool blocked, const ImpactOutcome& outcome);
+// A blow of less impulse is a touch: nobody is moved by it. N s.
+inline constexpr float kTouchImpulse = 5.0f;
+
+// Whether a blow cuts the struck fighter's action: not a touch, and not a block that holds without
+// a step. `impulse` in N s.
+bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 
 class ImpactMemo {
  public:
-  explicit ImpactMemo(std::vector<const MotionTables*> bodies);
+  explicit ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps = {});
 
   // The same answer whether it was stored or not, on any number of threads.
   const ImpactAnswer& answer(const LandedBlow& blow);
@@ -106,6 +111,7 @@ class ImpactMemo {
   const Value& looked_up(Shards<Value>& shards, const Key& key, const Compute& compute);
 
   std::vector<const MotionTables*> bodies_;
+  MemoSteps size_;
   Shards<Vec3> impulses_;
   Shards<ImpactAnswer> answers_;
 };

@@ -13,20 +13,34 @@ float ground_distance(Vec3 p) {
   return std::hypot(p.x, p.z);
 }
 
-Sphere bound_of(const BodyCapsules& capsules) {
-  Vec3 low = capsules[0].a, high = low;
+Box box_of(const BodyCapsules& capsules) {
+  Box box{capsules[0].a, capsules[0].a};
   for (const Capsule& c : capsules) {
-    low = glm::min(low, glm::min(c.a, c.b) - c.radius);
-    high = glm::max(high, glm::max(c.a, c.b) + c.radius);
+    box.low = glm::min(box.low, glm::min(c.a, c.b) - c.radius);
+    box.high = glm::max(box.high, glm::max(c.a, c.b) + c.radius);
   }
+  return box;
+}
+
+Sphere bound_of(const BodyCapsules& capsules) {
+  const Box box = box_of(capsules);
   Sphere sphere;
-  sphere.center = (low + high) * 0.5f;
+  sphere.center = (box.low + box.high) * 0.5f;
   for (const Capsule& c : capsules) {
     const float far =
         std::max(glm::distance(sphere.center, c.a), glm::distance(sphere.center, c.b));
     sphere.radius = std::max(sphere.radius, far + c.radius);
   }
   return sphere;
+}
+
+std::array<Sphere, kPartCount> spheres_of(const BodyCapsules& capsules) {
+  std::array<Sphere, kPartCount> spheres;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Capsule& c = capsules[i];
+    spheres[i] = {(c.a + c.b) * 0.5f, 0.5f * glm::distance(c.a, c.b) + c.radius};
+  }
+  return spheres;
 }
 
 StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
@@ -64,6 +78,8 @@ ActionTable action_table(const Action& action, const BodyModel& body) {
     table.root.push_back(scaled(action.clip.root[i], body.scale));
     table.capsules.push_back(capsules(body, world_pose(body.skeleton, pose)));
     table.bound.push_back(bound_of(table.capsules.back()));
+    table.box.push_back(box_of(table.capsules.back()));
+    table.spheres.push_back(spheres_of(table.capsules.back()));
     for (const Capsule& c : table.capsules.back()) {
       const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
       table.extent = std::max(table.extent, far);
@@ -205,25 +221,37 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
   return strike_contact(striker, strike.strike, struck);
 }
 
-BodyCapsules moved(const Frame& frame, const BodyCapsules& capsules) {
-  BodyCapsules result;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Capsule& c = capsules[i];
-    result[i] = {frame.to_outer(c.a), frame.to_outer(c.b), c.radius};
-  }
-  return result;
-}
-
-float penetration_at(const InFlight& a, const InFlight& b, Tick tick) {
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least) {
+  const Tick age_a = a.age(tick), age_b = b.age(tick);
   const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
-  const Sphere& bound_a = a.table->bound_at(a.age(tick));
-  const Sphere& bound_b = b.table->bound_at(b.age(tick));
-  const float reach = bound_a.radius + bound_b.radius;
-  if (glm::distance2(seen.to_outer(bound_a.center), bound_b.center) >= reach * reach) return 0;
-  const BodyCapsules capsules_a = moved(seen, a.table->capsules_at(a.age(tick)));
-  return deepest_penetration(capsules_a, b.table->capsules_at(b.age(tick)), intended(a, tick),
-                             intended(b, tick))
-      .depth;
+  const Sphere& bound_b = b.table->bound_at(age_b);
+  const auto near = [least](Vec3 center, float radius, const Sphere& other) {
+    const float reach = radius + other.radius - least;
+    return reach > 0 && glm::distance2(center, other.center) < reach * reach;
+  };
+  const Sphere& bound_a = a.table->bound_at(age_a);
+  if (!near(seen.to_outer(bound_a.center), bound_a.radius, bound_b)) return 0;
+  const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
+  const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
+  const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
+  const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
+  const Box& box_b = b.table->box_at(age_b);
+  float deepest = 0;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Vec3 center = seen.to_outer(spheres_a[i].center);
+    const Vec3 in_box = glm::clamp(center, box_b.low, box_b.high);
+    const float radius = spheres_a[i].radius;
+    if (((excepted_a >> i) & 1u) != 0 || glm::distance2(center, in_box) > radius * radius) continue;
+    for (std::size_t j = 0; j < kPartCount; ++j) {
+      if (((excepted_b >> j) & 1u) != 0 || !near(center, spheres_a[i].radius, spheres_b[j]))
+        continue;
+      const Capsule &own = capsules_a[i], &their = capsules_b[j];
+      const float distance =
+          segment_distance(seen.to_outer(own.a), seen.to_outer(own.b), their.a, their.b).distance;
+      deepest = std::max(deepest, own.radius + their.radius - distance);
+    }
+  }
+  return deepest > least ? deepest : 0;
 }
 
 }  // namespace ringcraft

@@ -34,6 +34,10 @@ struct Sphere {
   float radius = 0;
 };
 
+struct Box {
+  Vec3 low{}, high{};
+};
+
 // One blow of an attack, in action space.
 struct StrikeTable {
   Strike strike;
@@ -55,10 +59,12 @@ struct NextAction {
 struct ActionTable {
   const Action* action = nullptr;
   Tick length = 0;
-  std::vector<BodyCapsules> capsules;  // action space, one a tick
-  std::vector<Placement> root;         // scaled to the body
-  std::vector<Sphere> bound;           // of the capsules
-  std::vector<Pose> pose;              // scaled to the body
+  std::vector<BodyCapsules> capsules;                   // action space, one a tick
+  std::vector<std::array<Sphere, kPartCount>> spheres;  // around the capsules
+  std::vector<Placement> root;                          // scaled to the body
+  std::vector<Box> box;                                 // around the capsules
+  std::vector<Sphere> bound;                            // of the capsules
+  std::vector<Pose> pose;                               // scaled to the body
   std::vector<StrikeTable> strikes;
   float extent = 0;              // largest distance of the body from the origin on the ground, m
   Frame end;                     // root[length]
@@ -69,6 +75,8 @@ struct ActionTable {
   const BodyCapsules& capsules_at(Tick age) const { return capsules[at(age)]; }
   const Placement& root_at(Tick age) const { return root[at(age)]; }
   const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
+  const std::array<Sphere, kPartCount>& spheres_at(Tick age) const { return spheres[at(age)]; }
+  const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
   const NextAction* find_next(ActionId to) const;
 
@@ -111,12 +119,9 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
 // Whether a strike can touch the target at all while active: false costs next to nothing.
 bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlight& target);
 
-// Deepest penetration at `tick`, m. Parts of a strike that is active, or was within the last
-// kContactRest ticks, are left out: its contact is intended.
-float penetration_at(const InFlight& a, const InFlight& b, Tick tick);
+// Deepest penetration at `tick`, m, or 0 where it is not deeper than `least`. Parts of a strike
+// that is active, or was within the last kContactRest ticks, are left out: its contact is intended.
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least = 0);
 inline constexpr Tick kContactRest = 24;
-
-// Capsules as seen from outside the frame.
-BodyCapsules moved(const Frame& frame, const BodyCapsules& capsules);
 
 }  // namespace ringcraft

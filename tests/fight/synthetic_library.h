@@ -15,6 +15,7 @@ namespace ringcraft::synthetic {
 // One key of a clip. Hands and feet are relative to the root placement, m.
 struct Key {
   Tick tick = 0;
+  bool speeds_up = false;  // arrives at full speed, as a blow does; else starts and ends at rest
   Placement root{};
   float hips_height = 0.86f;                // m
   float lean = 0.10f, side = 0, twist = 0;  // rad: fore, to the own right, to the own left
@@ -65,7 +66,8 @@ inline Clip clip_of(const Skeleton& skeleton, const std::vector<Key>& keys) {
     const bool last = i + 2 == keys.size();
     for (Tick t = 0; t < span + (last ? 1 : 0); ++t) {
       const float x = static_cast<float>(t) / static_cast<float>(span);
-      const Key key = blended(keys[i], keys[i + 1], x * x * (3 - 2 * x));
+      const Key key =
+          blended(keys[i], keys[i + 1], keys[i + 1].speeds_up ? x * x : x * x * (3 - 2 * x));
       clip.frames.push_back(posed(skeleton, key));
       clip.root.push_back(key.root);
       clip.contacts.push_back({true, true});
@@ -91,6 +93,7 @@ class Builder {
   void attack(std::string name, const Key& strike, Strike blow, Tick hit, Tick end) {
     Key out = strike, back;
     out.tick = hit;
+    out.speeds_up = true;
     back.tick = end;
     back.root = strike.root;
     Action& action = add(std::move(name), Kind::attack, {Key{}, out, back});

@@ -1,0 +1,117 @@
+#include "planner/style.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/file.h"
+#include "planner/evaluation.h"
+
+namespace ringcraft {
+namespace {
+
+std::filesystem::path written(const std::string& name, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(StyleTest, EveryPublishedStyleReads) {
+  for (const char* name : {"balanced", "aggressive", "careful", "outboxer", "infighter", "kicker",
+                           "counter_puncher"}) {
+    const auto style = read_style(assets_folder() / "styles" / (std::string(name) + ".toml"));
+    ASSERT_TRUE(style) << to_string(style.error());
+    EXPECT_EQ(style->name, name);
+    EXPECT_LT(style->location_weight, 2);  // heavier ones lose the fight (planning.md section 8)
+    EXPECT_GE(style->candidates, 5);       // shorter lists make depth harmful
+  }
+}
+
+TEST(StyleTest, FieldsAreRead) {
+  const auto style = read_style(written("own_style.toml",
+                                        "leaf = \"paper\"\nhorizon_s = 1\ncandidates = 9\n"
+                                        "[strikes]\nhook = 2\n[liked]\njab = -0.5\n"));
+  ASSERT_TRUE(style) << to_string(style.error());
+  EXPECT_EQ(style->name, "own_style");
+  EXPECT_EQ(style->leaf, LeafValue::paper);
+  EXPECT_EQ(style->horizon_s, 1);
+  EXPECT_EQ(style->candidates, 9);
+  EXPECT_EQ(style->strikes.at("hook"), 2);
+  EXPECT_EQ(style->liked.at("jab"), -0.5);
+  EXPECT_EQ(style->caution, Style().caution);
+}
+
+TEST(StyleTest, UnknownKeyIsAnErrorThatNamesTheNearest) {
+  const auto style = read_style(written("typo.toml", "caution = 1\nattack_bonsu = 2\n"));
+  ASSERT_FALSE(style);
+  const std::string message = to_string(style.error());
+  EXPECT_NE(message.find("attack_bonus"), std::string::npos) << message;
+  EXPECT_NE(message.find("line 2"), std::string::npos) << message;
+}
+
+TEST(StyleTest, ValueOutOfRangeIsAnError) {
+  EXPECT_FALSE(read_style(written("far.toml", "horizon_s = 60\n")));
+  EXPECT_FALSE(read_style(written("word.toml", "caution = \"much\"\n")));
+}
+
+TEST(EvaluationTest, LocationIsBestAtThePreferredDistanceFacingTheOpponent) {
+  const Weights weights = weights_at({}, 0);
+  const double best = location_rate(weights, weights.distance, 1, 3);
+  EXPECT_EQ(best, 0);
+  EXPECT_DOUBLE_EQ(location_rate(weights, weights.distance + weights.sigma, 1, 3), -1);
+  EXPECT_DOUBLE_EQ(location_rate(weights, 50, 1, 3), -3);  // g(d) is bounded
+  EXPECT_LT(location_rate(weights, weights.distance, -1, 3), -1.9);
+  EXPECT_DOUBLE_EQ(location_rate(weights, weights.distance, 1, 0), -1);
+  EXPECT_DOUBLE_EQ(location_rate(weights, weights.distance, 1, 0.4), -0.5);
+  EXPECT_LT(location_rate(weights, 0.3, 1, 3), location_rate(weights, 0.5, 1, 3) - 2);
+}
+
+TEST(EvaluationTest, BoredomComesCloserAndDaresMore) {
+  Style style;
+  style.distance_m = 1.6;
+  style.caution = 3;
+  const Weights fresh = weights_at(style, style.boredom_after_s);
+  const Weights bored = weights_at(style, style.boredom_after_s + 5);
+  EXPECT_EQ(fresh.distance, 1.6);
+  EXPECT_EQ(fresh.caution, 3);
+  EXPECT_NEAR(bored.distance, 1.1, 1e-9);
+  EXPECT_NEAR(bored.caution, 1 + 2 * std::exp(-1.0), 1e-9);
+  EXPECT_NEAR(bored.attack_bonus, 5, 1e-9);
+  EXPECT_EQ(weights_at(style, 1000).distance, 0.9);
+}
+
+TEST(EvaluationTest, ControlFavoursShortAndSeldomUsedActions) {
+  const Style style;
+  const Weights weights = weights_at(style, 0);
+  Action brief, lengthy;
+  brief.clip.frames.resize(61);
+  lengthy.clip.frames.resize(121);
+  EXPECT_GT(launch_points(weights, style, brief, 0), launch_points(weights, style, lengthy, 0));
+  EXPECT_GT(launch_points(weights, style, brief, 0), launch_points(weights, style, brief, 0.1));
+  EXPECT_DOUBLE_EQ(launch_points(weights, style, lengthy, 0.25), -0.5 - 1);
+}
+
+TEST(EvaluationTest, LeafFormsWeighTheOpponentDifferently) {
+  Style style;
+  const LeafFactors weighted = leaf_factors(weights_at(style, 0));
+  EXPECT_EQ(weighted.events[1], -1.5);
+  EXPECT_EQ(weighted.rest[1], 0);
+  style.leaf = LeafValue::paper;
+  const LeafFactors paper = leaf_factors(weights_at(style, 0));
+  EXPECT_EQ(paper.events[1], -1);
+  EXPECT_EQ(paper.rest[1], -1);
+}
+
+TEST(EvaluationTest, HitsCountByDamageKindAndKnockdown) {
+  Style style;
+  style.strikes["hook"] = 2;
+  const Weights weights = weights_at(style, 0);
+  EXPECT_DOUBLE_EQ(hit_points(weights, style, StrikeKind::straight, 3000, false), 3);
+  EXPECT_DOUBLE_EQ(hit_points(weights, style, StrikeKind::hook, 3000, true), 12);
+  EXPECT_DOUBLE_EQ(defense_points(weights, 5000), 1.5);
+  EXPECT_EQ(defense_points(weights, -5000), 0);
+  EXPECT_EQ(thousandths(1.2345), 1235);
+}
+
+}  // namespace
+}  // namespace ringcraft
