@@ -30,12 +30,13 @@ float smooth(float t) {
   return t * t * (3 - 2 * t);
 }
 
-// Muscles of a struck body that stays up: trunk and neck give until the reflex, the legs carry on.
+// Muscles of a struck body that stays up: trunk and arms are slack until the reflex, the legs carry
+// on; the neck has its full torque but gives like a muscle (stiffness-limited).
 Tone standing_tone(float seconds, float tone) {
   const float back = smooth((seconds - kReflex) / (kFirm - kReflex));
   const auto ramp = [&](float low) { return tone * (low + (1 - low) * back); };
   Tone t = whole_body(ramp(.4f));
-  for (const Part p : {Part::neck, Part::head}) t[index(p)] = ramp(.25f);
+  for (const Part p : {Part::neck, Part::head}) t[index(p)] = ramp(1);
   for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) t[i] = ramp(.9f);
   return t;
 }
@@ -102,20 +103,32 @@ bool trunk_down(const BodyModel& body, const Pose& pose) {
   return false;
 }
 
-// No sole below the ground, no joint beyond its range.
+float depth_below_ground(const BodyModel& body, const WorldPose& world, Side side) {
+  float low = 0;
+  for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
+  return -low;
+}
+
+// No sole below the ground, no joint beyond its range. A foot is lifted by its own leg; what that
+// cannot do, or the ranges forbid, the whole body does.
 Pose mended(const BodyModel& body, const Pose& simulated) {
+  constexpr float kLeast = .001f;  // m
   Pose pose = within_limits(body, simulated, kLimitTolerance);
   for (const Side side : {Side::left, Side::right}) {
     const WorldPose world = world_pose(body.skeleton, pose);
-    float low = 0;
-    for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
-    if (low > -.001f) continue;
+    const float depth = depth_below_ground(body, world, side);
+    if (depth < kLeast) continue;
     const Limb limb = leg(side);
     solve_limb(body.skeleton, limb,
-               {world.position[index(limb.end)] - Vec3{0, low, 0},
+               {world.position[index(limb.end)] + Vec3{0, depth, 0},
                 present_pole(world, limb, world.rotation[0] * kForward), 1.0f},
                pose);
   }
+  pose = within_limits(body, pose, kLimitTolerance);
+  const WorldPose world = world_pose(body.skeleton, pose);
+  const float depth = std::max(depth_below_ground(body, world, Side::left),
+                               depth_below_ground(body, world, Side::right));
+  if (depth >= kLeast) pose.hips.y += depth;
   return pose;
 }
 
