@@ -13,7 +13,8 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kLargestNumber = 1e7f;  // beyond it no length or angle makes sense
+constexpr float kLargestNumber = 1e7f;   // beyond it no length or angle makes sense
+constexpr std::size_t kMissingRows = 2;  // that exporters miscount; more are a file cut off
 constexpr const char* kExportAgain = "export the file again";
 
 bool is_space(char c) {
@@ -314,6 +315,11 @@ class Reader {
       add_frame(row);
     }
     if (clip_.frames == 0) return fault(words_.line(), "there are no rows after Frame Time");
+    if (clip_.frames + kMissingRows < frames_said_)
+      return fault(words_.line(),
+                   fmt::format("Frames: says {}, but the file ends after {} rows", frames_said_,
+                               clip_.frames),
+                   "the file is cut off: fetch it again");
     if (clip_.frames != frames_said_)
       clip_.notes.push_back(fmt::format("Frames: says {}, the file has {} rows: read the rows",
                                         frames_said_, clip_.frames));

@@ -92,14 +92,14 @@ TEST(Bvh, BetweenFramesRotationsGoTheShortestWay) {
 
 TEST(Bvh, ReadsWhatRealFilesDo) {
   std::string text = with_motion(
-      "MOTION\r\nFrames:\t5\r\nFrame Time:\t.01\r\n0 0 0 0 0 0 0 0 0\r\n+1 -1e-2 0 0 0 0 0 0 0 "
+      "MOTION\r\nFrames:\t3\r\nFrame Time:\t.01\r\n0 0 0 0 0 0 0 0 0\r\n+1 -1e-2 0 0 0 0 0 0 0 "
       "\n\n");
   text.insert(text.find("Arm"), "Bras cass\xE9 ");
   const auto clip = parse_bvh(text, "odd.bvh");
   ASSERT_TRUE(clip) << to_string(clip.error());
   EXPECT_EQ(clip->frames, 2u);
   ASSERT_EQ(clip->notes.size(), 1u);
-  EXPECT_THAT(clip->notes[0], HasSubstr("says 5"));
+  EXPECT_THAT(clip->notes[0], HasSubstr("says 3"));
   EXPECT_THAT(clip->notes[0], HasSubstr("2 rows"));
   EXPECT_EQ(clip->joints[1].name, "Bras cass\xC3\xA9 Arm");
 }
@@ -127,6 +127,7 @@ std::vector<BadFile> bad_files() {
       {"cut in the hierarchy", good.substr(0, 120), "line 6", "the file ends"},
       {"no MOTION", std::string(kHierarchy), "line 16", "MOTION"},
       {"cut in a row", good.substr(0, good.size() - 6), "line 20", "6 numbers"},
+      {"cut between rows", replaced(good, "Frames: 2", "Frames: 9"), "line 21", "after 2 rows"},
       {"text in a row", replaced(good, "0 0 0 0 0 0 0 0 0", "0 0 x1 0 0 0 0 0 0"), "line 19",
        "'x1'"},
       {"half a number", replaced(good, "0 0 0 0 0 0 0 0 0", "0 0 1.5.2 0 0 0 0 0 0"), "line 19",
