@@ -61,6 +61,20 @@ void add_decision(json& object, const DecisionRecord& decision, bool with_lines)
   object["lines"] = std::move(lines);
 }
 
+// The caller's fields over the writer's own; what is said of fighters is put together.
+void add_header(json& first, const json& header) {
+  for (const auto& [key, value] : header.items()) {
+    if (key != "fighters" || !value.is_array()) {
+      first[key] = value;
+      continue;
+    }
+    json& fighters = first["fighters"];
+    for (std::size_t i = 0; i < value.size() && i < fighters.size(); ++i) {
+      if (value[i].is_object()) fighters[i].update(value[i]);
+    }
+  }
+}
+
 }  // namespace
 
 double rounded(double value, int decimals) {
@@ -110,7 +124,7 @@ std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook
                                  {"height_m", rounded(look.body.spec.height, 3)},
                                  {"mass_kg", rounded(look.body.spec.mass, 2)}});
   }
-  if (header.is_object()) first.update(header);
+  if (header.is_object()) add_header(first, header);
   // Names and actions come from files: what is no UTF-8 is replaced, never thrown at the caller.
   const auto line = [](const json& object) {
     return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';

@@ -56,6 +56,8 @@ constexpr Format kVertexVec3{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
                              TINYGLTF_TARGET_ARRAY_BUFFER, false};
 constexpr Format kIndices{TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                           TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false};
+constexpr Format kShortIndices{TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
+                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false};
 constexpr Format kShades{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
                          TINYGLTF_TARGET_ARRAY_BUFFER, true};
 constexpr Format kJoints{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
@@ -97,6 +99,8 @@ class GlbBuilder {
     model_.nodes.push_back(std::move(node));
     return static_cast<int>(model_.nodes.size()) - 1;
   }
+  int add_indices(const std::vector<std::uint32_t>& triangles, std::size_t vertices);
+  int single_time();
   int add_material(const std::string& name, Vec3 colour, double roughness);
   int add_mesh(const std::string& name, const FighterLook& look);
   int add_skeleton(const Skeleton& skeleton, std::array<int, kJointCount>& nodes);
@@ -134,6 +138,14 @@ int GlbBuilder::add_data(const std::vector<Element>& elements, const Format& for
   }
   model_.accessors.push_back(accessor);
   return static_cast<int>(model_.accessors.size()) - 1;
+}
+
+// Two bytes an index where they suffice; 65535 would mean a restart.
+int GlbBuilder::add_indices(const std::vector<std::uint32_t>& triangles, std::size_t vertices) {
+  if (vertices > 65535) return add_data(triangles, kIndices);
+  std::vector<std::uint16_t> narrow;
+  for (const std::uint32_t v : triangles) narrow.push_back(static_cast<std::uint16_t>(v));
+  return add_data(narrow, kShortIndices);
 }
 
 void GlbBuilder::set_bounds(tinygltf::Accessor& accessor, const float* numbers,
@@ -204,7 +216,7 @@ int GlbBuilder::add_mesh(const std::string& name, const FighterLook& look) {
     primitive.attributes["COLOR_0"] = add_data(piece.shade, kShades);
     primitive.attributes["JOINTS_0"] = add_data(joints, kJoints);
     primitive.attributes["WEIGHTS_0"] = add_data(shares, kWeights);
-    primitive.indices = add_data(piece.triangles, kIndices);
+    primitive.indices = add_indices(piece.triangles, piece.position.size());
     const Finish finish = finish_of(look, piece.region);
     primitive.material = add_material(name + "_" + std::string(name_of(piece.region)),
                                       finish.colour, finish.roughness);
@@ -287,7 +299,12 @@ void GlbBuilder::set_key_count(std::size_t count) {
     times.push_back(static_cast<float>(static_cast<double>(i) * kTicksPerKey / kTicksPerSecond));
   }
   key_times_ = add_data(times, kKeyTimes, true);
-  single_time_ = add_data(std::vector<float>{0}, kKeyTimes, true);
+}
+
+// Made when a track first needs it: nothing in the file is unused.
+int GlbBuilder::single_time() {
+  if (single_time_ < 0) single_time_ = add_data(std::vector<float>{0}, kKeyTimes, true);
+  return single_time_;
 }
 
 void GlbBuilder::add_channel(int node, const char* path, int input, int output) {
@@ -335,7 +352,7 @@ void GlbBuilder::add_motion(const std::array<int, kJointCount>& nodes, const Fig
   }
   const bool still = constant(places);
   if (still) places.resize(1);
-  add_channel(nodes[0], "translation", still ? single_time_ : key_times_,
+  add_channel(nodes[0], "translation", still ? single_time() : key_times_,
               add_data(places, kKeyVec3));
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
     std::vector<std::array<float, 4>> keys;
@@ -346,7 +363,7 @@ void GlbBuilder::add_motion(const std::array<int, kJointCount>& nodes, const Fig
     }
     const bool one = constant(keys);
     if (one) keys.resize(1);
-    add_channel(nodes[joint], "rotation", one ? single_time_ : key_times_,
+    add_channel(nodes[joint], "rotation", one ? single_time() : key_times_,
                 add_data(keys, kKeyQuat));
   }
 }
@@ -359,7 +376,7 @@ void GlbBuilder::add_ring(float half) {
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_data(part.position, kVertexVec3, true);
     primitive.attributes["NORMAL"] = add_data(part.normal, kVertexVec3);
-    primitive.indices = add_data(part.triangles, kIndices);
+    primitive.indices = add_indices(part.triangles, part.position.size());
     primitive.material =
         add_material(std::string("ring_") + part.name, part.colour, rounded(part.roughness, 3));
     mesh.primitives.push_back(std::move(primitive));

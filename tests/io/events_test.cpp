@@ -36,6 +36,15 @@ TEST(Events, AreOneObjectALineBehindAHeader) {
   }
 }
 
+TEST(Events, TheHeaderKeepsWhatBothSayOfTheFighters) {
+  const json header = {{"fighters", {{{"style", "careful"}}}}};
+  const json first = lines_of(events_jsonl(sample::timeline(), sample::looks(), header))[0];
+  ASSERT_EQ(first["fighters"].size(), 2u);
+  EXPECT_EQ(first["fighters"][0]["style"], "careful");
+  EXPECT_EQ(first["fighters"][0]["name"], "Ana \"the Anvil\"");
+  EXPECT_DOUBLE_EQ(first["fighters"][0]["height_m"], 1.68);
+}
+
 TEST(Events, AHitSaysWhatPhysicsSaid) {
   const json hit = event_json(sample::events()[2], true);
   EXPECT_EQ(hit["part"], "head");

@@ -106,7 +106,7 @@ TEST_F(Glb, WeightsSumToOneAndIndicesStayWithin) {
           }
         }
       }
-      for (const std::uint32_t v : data<std::uint32_t>(primitive.indices)) {
+      for (const std::uint16_t v : data<std::uint16_t>(primitive.indices)) {
         ASSERT_LT(v, positions.size());
       }
       EXPECT_GE(primitive.material, 0);
