@@ -37,19 +37,11 @@ int steps_needed(const BodyModel& body, float beyond, float off, float seconds_a
 
 // How far the interrupted action itself carries the extrapolated centre of mass beyond the base: a
 // body in motion leans where it was going to set its foot, and what counts is what the blow adds.
-// Found by the same ragdoll without the blow; nothing for a body that stands (its drift is no
-// motion of its own, and the balance takes care of it).
+// Found by the same ragdoll without the blow; nothing for a body that stays over its feet.
 Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, const Tone& tone,
                            const Base& base) {
   constexpr float kTap = .02f;  // m, some 4 N s: so much more is still no disturbance
   const float rate = pendulum_rate(body);
-  const auto center = [&](int tick) {
-    return center_of_mass(body, world_pose(body.skeleton, frame.continued(tick)));
-  };
-  const Vec3 at = center(kImpulseStepTicks);
-  const Vec3 moving = (at - center(kImpulseStepTicks - 1)) / kTickSeconds;
-  const bool one_foot = frame.contacts().left != frame.contacts().right;
-  if (!one_foot && base.beyond(extrapolated(at, moving, rate)).distance <= 0) return {};
   Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
   undisturbed.set_tone(tone);
   Balance balance(body, frame);
@@ -90,9 +82,11 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
   outcome.com_velocity = ragdoll.center_of_mass_velocity();
   const Base& carrying =
       moves_feet(frame.blow().part) ? standing_base(body, ragdoll, planted) : base;
-  const Vec3 xi = extrapolated(ragdoll.center_of_mass(), outcome.com_velocity, rate) -
-                  carried_by_the_action(body, frame, tone_of(input.tone), base);
-  const Base::Beyond beyond = carrying.beyond(xi);
+  const Vec3 xi = extrapolated(ragdoll.center_of_mass(), outcome.com_velocity, rate);
+  Base::Beyond beyond = carrying.beyond(xi);
+  if (beyond.distance > 0) {
+    beyond = carrying.beyond(xi - carried_by_the_action(body, frame, tone_of(input.tone), base));
+  }
   outcome.margin = beyond.distance;
   const float way = yaw_of(beyond.direction);
   const int steps = steps_needed(body, beyond.distance, way, kImpulseSteps * kRagdollStep);
