@@ -1,8 +1,16 @@
 #include "scene/stage.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "scene/keep_out.h"
+
 namespace ringcraft {
+
+namespace {
+constexpr float kArmsReach =
+    2.4f;  // m between the hips of canonical bodies: beyond it none can touch
+}
 
 Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies) : library_(library) {
   for (BodyModel& body : bodies) {
@@ -15,7 +23,9 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
   return pose_at(library_, actor.launch, tick, actor.body.scale);
 }
 
-void Stage::begin(FighterId fighter, const Launch& launch) { begin(fighter, launch, {}); }
+void Stage::begin(FighterId fighter, const Launch& launch) {
+  begin(fighter, launch, {});
+}
 
 void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
   Actor& actor = actors_[fighter.at()];
@@ -23,6 +33,10 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.simulated = std::move(simulated);
   actor.simulated_from = launch.start + 1;
   const Action& action = library_.action(launch.action);
+  if (!actor.track.segments.empty()) {
+    Launch& last = actor.track.segments.back().launch;
+    last.end = std::min(last.end, launch.start);
+  }
   actor.track.segments.push_back({launch, action.name, action.kind});
   if (actor.simulated.empty()) {
     actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
@@ -55,7 +69,20 @@ void Stage::show(Tick tick) {
     actor.swept.after =
         capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
-    actor.track.frames.push_back(actor.playback.shown());
+  }
+}
+
+void Stage::keep_out_and_record() {
+  for (Actor& actor : actors_) {
+    Pose pose = actor.playback.shown();
+    for (const Actor& other : actors_) {
+      const float apart = glm::distance(pose.hips, other.playback.shown().hips);
+      if (&other == &actor || apart > kArmsReach * actor.body.scale) continue;
+      pose = kept_out(actor.body, pose, actor.playback.held(), other.swept.after);
+    }
+    actor.playback.amend(pose);
+    actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, pose));
+    actor.track.frames.push_back(pose);
     actor.track.contacts.push_back(actor.playback.held());
   }
 }
@@ -64,7 +91,9 @@ const Pose& Stage::shown_before(FighterId fighter) const {
   return actors_[fighter.at()].playback.shown_before();
 }
 
-bool Stage::simulated(FighterId fighter) const { return actors_[fighter.at()].was_simulated; }
+bool Stage::simulated(FighterId fighter) const {
+  return actors_[fighter.at()].was_simulated;
+}
 
 std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
   const Actor& actor = actors_[fighter.at()];
@@ -76,7 +105,8 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
     if (at < actor.simulated.size()) {
       poses.push_back(actor.simulated[at]);
     } else {
-      poses.push_back(ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start)));
+      poses.push_back(
+          ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start)));
     }
   }
   return poses;

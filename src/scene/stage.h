@@ -25,8 +25,11 @@ class Stage {
   // Moves a fighter's launch on the ground; the feet follow by steps of their own.
   void shift(FighterId fighter, Vec3 offset);
 
-  // Shows one tick of every fighter and records it.
+  // Shows one tick of every fighter: poses and capsules, as if nothing stood in their way.
   void show(Tick tick);
+
+  // After the contacts of the tick were answered: keeps limbs out of the other bodies, and records.
+  void keep_out_and_record();
 
   const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
   const Pose& shown(FighterId fighter) const { return actors_[fighter.at()].playback.shown(); }
@@ -36,7 +39,8 @@ class Stage {
   // Capsules now and one tick ago.
   const SweptBody& swept(FighterId fighter) const { return actors_[fighter.at()].swept; }
 
-  // The motion that would be shown if nothing interrupted it: `count` world poses from the shown one on.
+  // The motion that would be shown if nothing interrupted it: `count` world poses from the shown
+  // one on.
   std::vector<Pose> continued(FighterId fighter, Tick tick, Tick count) const;
 
   std::vector<FighterTrack> take_tracks();

@@ -1,0 +1,47 @@
+#pragma once
+// The subcommands. Each returns the exit code: 0 done, 1 a check found faults, 2 usage or
+// configuration, 3 file or input data, 4 simulation failed, 130 interrupted.
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace ringcraft {
+
+// What all commands understand.
+struct CommonOptions {
+  std::string out;  // output folder; empty: out/<scene>
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> sets;  // --set path.to.key=value
+  int threads = 1;
+  bool json = false;
+  bool quiet = false;
+  int verbose = 0;
+};
+
+struct HitOptions {
+  std::string library = "kickboxing";
+  std::string body = "middleweight";
+  std::string pose = "idle_guard_bounce@0.1";
+  std::string part = "head";
+  std::vector<float> impulse = {0, 0, -26};
+  float tone = 1;
+};
+
+// Set by SIGINT and SIGTERM.
+extern std::atomic<bool> interrupted;
+
+// Prints one line on stderr and returns the error's exit code.
+int fail(const Error& error);
+
+int run_fight(const std::string& scene, const CommonOptions& options);
+int run_hit(const HitOptions& hit, const CommonOptions& options);
+int run_library_inspect(const std::string& library, const CommonOptions& options);
+int run_library_check(const std::string& library, const CommonOptions& options);
+int run_schema(const std::string& name);
+
+}  // namespace ringcraft

@@ -1,0 +1,44 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "scene/fight.h"
+#include "scene/fight_files.h"
+#include "scene/library_file.h"
+
+namespace ringcraft {
+
+int run_fight(const std::string& scene_name, const CommonOptions& options) {
+  std::vector<std::string> sets = options.sets;
+  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
+  const auto scene = read_scene(scene_name, sets);
+  if (!scene) return fail(scene.error());
+  const std::filesystem::path folder = options.out.empty()
+                                           ? std::filesystem::path("out") / scene->name
+                                           : std::filesystem::path(options.out);
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto library = load_library(scene->library);
+  if (!library) return fail(library.error());
+
+  FightOptions fight_options;
+  fight_options.threads = options.threads;
+  fight_options.interrupted = &interrupted;
+  if (!options.quiet) {
+    fight_options.progress = [&](Tick now, Tick end) {
+      fmt::print(stderr, "\r{}: {:.0f} of {:.0f} s", scene->name, seconds(now), seconds(end));
+    };
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const FightRecord record = simulate_fight(*library, *scene, fight_options);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  if (!options.quiet) fmt::print(stderr, "\n");
+
+  const auto summary = write_fight(folder, *scene, *library, record, wall.count(), options.threads);
+  if (!summary) return fail(summary.error());
+  fmt::print("{}\n", options.json ? summary->report : summary->text);
+  return record.interrupted ? 130 : 0;
+}
+
+}  // namespace ringcraft

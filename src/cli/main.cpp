@@ -1,0 +1,106 @@
+// The command `ringcraft`.
+
+#include <csignal>
+#include <exception>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+
+namespace ringcraft {
+
+std::atomic<bool> interrupted = false;
+
+int fail(const Error& error) {
+  fmt::print(stderr, "ringcraft: {}\n", to_string(error));
+  return static_cast<int>(error.kind);
+}
+
+namespace {
+
+void on_signal(int) {
+  interrupted = true;
+}
+
+void add_common(CLI::App& command, CommonOptions& options) {
+  command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
+  command.add_option("--seed", options.seed, "Seed, instead of the scene's")->type_name("N");
+  command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+  command.add_option("--threads", options.threads, "Threads; never changes the result")
+      ->check(CLI::Range(1, 256));
+  command.add_flag("--json", options.json, "Print the result as JSON on stdout");
+  command.add_flag("-q,--quiet", options.quiet, "No progress");
+  command.add_flag("-v,--verbose", options.verbose, "Say more");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Fights in which hits are physical.", "ringcraft");
+  app.set_version_flag("--version", RINGCRAFT_VERSION);
+  app.require_subcommand(1);
+  CommonOptions options;
+  int code = 0;
+
+  std::string scene = "duel";
+  CLI::App* fight = app.add_subcommand("fight", "Simulate a scene: GLB, events, report and a page");
+  fight->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
+  add_common(*fight, options);
+  fight->callback([&] { code = run_fight(scene, options); });
+
+  HitOptions hit_options;
+  CLI::App* hit =
+      app.add_subcommand("hit", "One hit on one body: the response, its numbers, GLB and page");
+  hit->add_option("--pose", hit_options.pose, "The interrupted action and the seconds into it")
+      ->type_name("ACTION@S");
+  hit->add_option("--part", hit_options.part, "Struck body part");
+  hit->add_option("--impulse", hit_options.impulse, "N s along the fighter's left, up and fore")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(CLI::Range(0.0, 1.0));
+  hit->add_option("--body", hit_options.body, "A file of assets/bodies");
+  hit->add_option("--library", hit_options.library, "Motion library");
+  add_common(*hit, options);
+  hit->callback([&] { code = run_hit(hit_options, options); });
+
+  std::string library_name = "kickboxing";
+  CLI::App* library = app.add_subcommand("library", "Look into a motion library");
+  library->require_subcommand(1);
+  CLI::App* inspect = library->add_subcommand("inspect", "Every action as a filmstrip and a table");
+  inspect->add_option("LIBRARY", library_name, "Manifest, folder, or the name of one in assets");
+  add_common(*inspect, options);
+  inspect->callback([&] { code = run_library_inspect(library_name, options); });
+  CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
+  check->add_option("LIBRARY", library_name, "Manifest, folder, or the name of one in assets");
+  add_common(*check, options);
+  check->callback([&] { code = run_library_check(library_name, options); });
+
+  std::string schema_name;
+  CLI::App* schema = app.add_subcommand("schema", "Print a published JSON Schema");
+  schema->add_option("NAME", schema_name, "scene, style, body, manifest, sheet or profile")
+      ->required();
+  schema->callback([&] { code = run_schema(schema_name); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace ringcraft
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, ringcraft::on_signal);
+  std::signal(SIGTERM, ringcraft::on_signal);
+  try {
+    return ringcraft::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ringcraft: simulation failed: {}; please report this\n", error.what());
+    return static_cast<int>(ringcraft::ErrorKind::simulation);
+  }
+}

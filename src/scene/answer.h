@@ -1,0 +1,25 @@
+#pragma once
+// The answer to a hit as motion: the forced launch that physics chose, and the simulated poses that are
+// shown before its clip takes over (Zordan 2005: a second, active simulation aimed at the clip).
+
+#include <vector>
+
+#include "fight/state.h"
+#include "physics/impact.h"
+
+namespace ringcraft {
+
+struct Answer {
+  Launch launch;                // of the response action, from where the cut action stands
+  std::vector<Pose> simulated;  // world, one a tick from launch.start + 1 on
+};
+
+// `cut`: the interrupted launch, at tick `now`.
+Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
+                 const ImpactInput& input, const ImpactOutcome& outcome);
+
+// The get-up that starts nearest to the pose that is shown, placed on it.
+Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen, Tick now,
+                   const Pose& shown);
+
+}  // namespace ringcraft

@@ -1,0 +1,363 @@
+#include "scene/bout.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+
+#include "base/hash.h"
+#include "physics/impact.h"
+#include "physics/penetration.h"
+#include "scene/answer.h"
+
+namespace ringcraft {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double microseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+}
+
+constexpr Tick kOpeningTicks = 24;  // in guard before the first decision
+constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
+constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
+constexpr float kMostPush = 0.012f;      // m a tick and fighter
+
+std::vector<BodyModel> bodies_of(const SceneFile& scene) {
+  std::vector<BodyModel> bodies;
+  for (const SceneFighter& fighter : scene.fighters) bodies.push_back(make_body(fighter.body));
+  return bodies;
+}
+
+// The idle that opens a bout; every library has one, the builder sees to it.
+ActionId opening_action(const MotionLibrary& library) {
+  for (const ActionId id : library.launchable()) {
+    if (library.action(id).kind == Kind::idle) return id;
+  }
+  return library.launchable().front();
+}
+
+}  // namespace
+
+Bout::Bout(const MotionLibrary& library, const SceneFile& scene, const FightOptions& options)
+    : library_(library),
+      scene_(scene),
+      options_(options),
+      standing_(scene.fighters.size()),
+      stage_(library, bodies_of(scene)),
+      end_(scene.duration) {
+  std::vector<Contender> contenders;
+  for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
+    contenders.push_back({stage_.body(FighterId(i)), scene.fighters[i].style});
+    FighterState state;
+    state.health = scene.fighters[i].health;
+    state.launch.action = opening_action(library);
+    state.launch.placement = scene.fighters[i].placement;
+    state.launch.end = kOpeningTicks;
+    state_.fighters.push_back(state);
+  }
+  PlanSettings settings = scene.planner;
+  settings.threads = options.threads;
+  planner_ = std::make_unique<Planner>(library, contenders, settings, scene.seed);
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    begin(FighterId(i), state_.fighters[i].launch);
+    state_.fighters[i].opponent = nearest_opponent(FighterId(i));
+  }
+  stage_.show(0);
+  stage_.keep_out_and_record();
+}
+
+Bout::~Bout() = default;
+
+bool Bout::over() const {
+  return state_.now >= end_ ||
+         (options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed));
+}
+
+bool Bout::must_get_up(FighterId id) const {
+  return !is_out(id) && action_of(id).ends_lying != Lying::none;
+}
+
+bool Bout::is_out(FighterId id) const {
+  return standing_[id.at()].out;
+}
+
+const Action& Bout::action_of(FighterId id) const {
+  return library_.action(state_.fighters[id.at()].launch.action);
+}
+
+Vec3 Bout::ground_position(FighterId id) const {
+  const Vec3 hips = stage_.shown(id).hips;
+  return {hips.x, 0, hips.z};
+}
+
+bool Bout::enemies(FighterId a, FighterId b) const {
+  return a != b && scene_.fighters[a.at()].team != scene_.fighters[b.at()].team;
+}
+
+FighterId Bout::nearest_opponent(FighterId id) const {
+  FighterId nearest;
+  float least = 0;
+  const auto place = [&](FighterId f) {
+    return root_at(library_, state_.fighters[f.at()].launch, state_.now, stage_.body(f).scale)
+        .position();
+  };
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const FighterId other(i);
+    if (!enemies(id, other)) continue;
+    // Somebody knocked out is an opponent only where nobody else is left.
+    const float distance =
+        glm::distance(place(id), place(other)) + (is_out(other) ? 1000.0f : 0.0f);
+    if (!nearest.valid() || distance < least) {
+      nearest = other;
+      least = distance;
+    }
+  }
+  return nearest;
+}
+
+void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated) {
+  fighter(id).launch = launch;
+  stage_.begin(id, launch, std::move(simulated));
+}
+
+Plan Bout::decide(FighterId id) {
+  fighter(id).opponent = nearest_opponent(id);
+  const auto begin = Clock::now();
+  Plan plan = planner_->plan(state_, id, last_contact_);
+  record_.decision_ms.push_back(microseconds_since(begin) / 1000);
+  return plan;
+}
+
+void Bout::commit(FighterId id, const Plan& plan) {
+  note_expanded(state_, id);
+  fighter(id).balance = 0;
+  standing_[id.at()].foreseen = plan.foreseen;
+  planner_->note_launch(id, plan.launch.action);
+  begin(id, plan.launch);
+  Event event;
+  event.tick = state_.now;
+  event.type = EventType::decision;
+  event.who = id;
+  event.whom = fighter(id).opponent;
+  event.action = action_of(id).name;
+  event.decision = plan.record;
+  record_.timeline.events.push_back(std::move(event));
+}
+
+void Bout::commit_get_up(FighterId id) {
+  const Launch launch =
+      get_up_from(library_, stage_.body(id), fighter(id).launch, state_.now, stage_.shown(id));
+  begin(id, launch);
+  Event event;
+  event.tick = state_.now;
+  event.type = EventType::getup;
+  event.who = id;
+  event.action = library_.action(launch.action).name;
+  record_.timeline.events.push_back(std::move(event));
+}
+
+void Bout::commit_rest(FighterId id) {
+  fighter(id).launch.end = end_ + 1;
+}
+
+void Bout::advance_one_tick() {
+  ++state_.now;
+  stage_.show(state_.now);
+  if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) note_strikes(FighterId(i));
+  for (const Touch& touch : touches()) commit_touch(touch);
+  stage_.keep_out_and_record();
+  push_apart();
+}
+
+// Says when a blow is thrown, and when its time is over without a contact.
+void Bout::note_strikes(FighterId id) {
+  Launch& launch = fighter(id).launch;
+  const Action& action = action_of(id);
+  const Tick age = state_.now - launch.start;
+  for (std::size_t i = 0; i < action.strikes.size(); ++i) {
+    const Strike& strike = action.strikes[i];
+    const auto bit = static_cast<std::uint8_t>(1u << i);
+    const bool begins = age == strike.active_begin;
+    const bool missed = age == strike.active_end && !(launch.spent & bit);
+    if (!begins && !missed) continue;
+    Event event;
+    event.tick = state_.now;
+    event.type = begins ? EventType::strike : EventType::miss;
+    event.who = id;
+    event.whom = fighter(id).opponent;
+    event.action = action.name;
+    event.strike = strike.kind;
+    record_.timeline.events.push_back(std::move(event));
+    if (missed) launch.spent |= bit;
+  }
+}
+
+std::optional<Bout::Touch> Bout::touch_of(FighterId attacker, std::size_t strike) const {
+  std::optional<Touch> first;
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const FighterId target(i);
+    if (!enemies(attacker, target)) continue;
+    if (state_.fighters[i].down() && !scene_.planner.hits_on_downed) continue;
+    const auto contact = strike_contact(stage_.swept(attacker), action_of(attacker).strikes[strike],
+                                        stage_.swept(target));
+    if (contact && (!first || contact->share < first->contact.share)) {
+      first = Touch{attacker, target, strike, *contact};
+    }
+  }
+  return first;
+}
+
+std::vector<Bout::Touch> Bout::touches() const {
+  std::vector<Touch> found;
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const Launch& launch = state_.fighters[i].launch;
+    const Action& action = library_.action(launch.action);
+    const Tick age = state_.now - launch.start;
+    for (std::size_t s = 0; s < action.strikes.size(); ++s) {
+      const Strike& strike = action.strikes[s];
+      const bool active = age >= strike.active_begin && age < strike.active_end;
+      if (!active || (launch.spent >> s & 1u)) continue;
+      if (auto touch = touch_of(FighterId(i), s)) found.push_back(*touch);
+    }
+  }
+  return found;
+}
+
+void Bout::commit_touch(const Touch& touch) {
+  const FighterId attacker = touch.attacker, target = touch.target;
+  const Strike strike = action_of(attacker).strikes.at(touch.strike);
+  fighter(attacker).launch.spent |= static_cast<std::uint8_t>(1u << touch.strike);
+  last_contact_ = state_.now;
+
+  // 1. The impulse of the blow, and what the struck body does with it in 100 ms.
+  ImpactInput input;
+  input.pose = stage_.shown(target);
+  input.pose_before = stage_.shown_before(target);
+  const std::vector<Pose> continued = stage_.continued(target, state_.now, kImpulseStepTicks + 2);
+  input.continued = continued;
+  input.blow = blow_of(stage_.body(attacker), stage_.shown(attacker), stage_.body(target),
+                       input.pose, touch.contact, strike.kind);
+  input.contacts = library_.action(fighter(target).launch.action)
+                       .clip.contacts_at(state_.now - fighter(target).launch.start);
+  const auto begin = Clock::now();
+  ImpactOutcome outcome = impulse_step(stage_.body(target), input);
+  record_.impulse_step_us.push_back(microseconds_since(begin));
+  ++record_.counts.impacts;
+  record_.counts.impulse_sum_Ns += glm::length(input.blow.impulse);
+
+  // 2. What it costs. Nobody stands without health.
+  const std::int32_t damage = damage_of(input.blow, outcome);
+  fighter(target).health = std::max(0, fighter(target).health - damage);
+  if (fighter(target).health == 0) {
+    outcome.response = ResponseKind::knockdown;
+    outcome.knockout = true;
+  }
+
+  // 3. The record, and the response as the struck fighter's next action.
+  Event event;
+  event.tick = state_.now;
+  event.type = touch.contact.blocked ? EventType::block : EventType::hit;
+  event.who = attacker;
+  event.whom = target;
+  event.action = action_of(attacker).name;
+  event.part = std::string(name_of(input.blow.part));
+  event.strike = strike.kind;
+  event.point = input.blow.point;
+  event.impulse = input.blow.impulse;
+  event.speed = input.blow.speed;
+  event.effective_mass = input.blow.effective_mass;
+  event.head_spin = outcome.head_spin;
+  event.damage = static_cast<float>(damage) / 1000;
+  event.response = outcome.response;
+  event.steps = outcome.steps;
+  event.direction = outcome.direction;
+  event.knockout = outcome.knockout;
+  note_foreseen(touch, event);
+  record_.timeline.events.push_back(event);
+  const bool held = touch.contact.blocked && outcome.response == ResponseKind::absorb;
+  if (!held && !fighter(target).down()) respond(target, input, outcome, event);
+}
+
+void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome,
+                   Event& event) {
+  Launch& cut = fighter(id).launch;
+  cut.end = state_.now;
+  const bool falls = outcome.response == ResponseKind::knockdown;
+  Answer answer = answer_to(library_, stage_.body(id), cut, state_.now, input, outcome);
+  const Launch launch = answer.launch;
+  begin(id, launch, std::move(answer.simulated));
+  fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
+  standing_[id.at()].foreseen.clear();
+
+  event.type = falls ? EventType::knockdown : EventType::response;
+  event.who = id;
+  event.whom = {};
+  event.action = library_.action(launch.action).name;
+  event.damage = 0;
+  record_.timeline.events.push_back(event);
+  if (outcome.knockout) {
+    standing_[id.at()].out = true;
+    int left = 0;
+    for (std::size_t i = 0; i < standing_.size(); ++i) left += !is_out(FighterId(i)) ? 1 : 0;
+    if (left <= 1) end_ = std::min(end_, launch.end + kAfterKnockout);
+  }
+}
+
+// Did the attacker's plan foresee this contact, and the same kind of response?
+void Bout::note_foreseen(const Touch& touch, Event& event) {
+  for (const Event& foreseen : standing_[touch.attacker.at()].foreseen) {
+    if (foreseen.who != event.who || foreseen.whom != event.whom ||
+        foreseen.action != event.action || foreseen.type != event.type) {
+      continue;
+    }
+    ++record_.counts.foreseen;
+    event.foreseen = foreseen.response == event.response;
+    record_.counts.foreseen_agreed += event.foreseen ? 1u : 0u;
+    return;
+  }
+}
+
+// Bodies that press into each other give way on the ground, each by half; a strike's own contact is
+// left to its impulse.
+void Bout::push_apart() {
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    for (std::size_t j = i + 1; j < state_.fighters.size(); ++j) {
+      const FighterId a(i), b(j);
+      const auto excepted = [&](FighterId id) {
+        std::uint32_t parts = 0;
+        for (const Strike& strike : action_of(id).strikes) parts |= striking_parts(strike);
+        return parts;
+      };
+      const Penetration deepest = deepest_penetration(stage_.swept(a).after, stage_.swept(b).after,
+                                                      excepted(a), excepted(b));
+      if (deepest.depth <= kTouchingDepth) continue;
+      const Vec3 apart = normalized_or(ground_position(b) - ground_position(a), kForward);
+      const float push = std::min(kMostPush, (deepest.depth - kTouchingDepth) * 0.5f);
+      for (const auto& [id, sign] : {std::pair{a, -1.0f}, std::pair{b, 1.0f}}) {
+        if (stage_.simulated(id) || fighter(id).down()) continue;
+        stage_.shift(id, apart * (push * sign));
+        fighter(id).launch.placement = stage_.launch(id).placement;
+      }
+    }
+  }
+}
+
+FightRecord Bout::record() {
+  record_.interrupted = options_.interrupted != nullptr && options_.interrupted->load();
+  record_.timeline.end = state_.now;
+  record_.timeline.tracks = stage_.take_tracks();
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    record_.bodies.push_back(stage_.body(FighterId(i)));
+  }
+  const Planner::MemoCounts memo = planner_->memo_counts();
+  record_.counts.memo_hits = memo.hits;
+  record_.counts.memo_misses = memo.misses;
+  record_.counts.impulse_steps = record_.counts.impacts + memo.misses;
+  return std::move(record_);
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,68 @@
+#pragma once
+// A bout under way: the fight state, the shown bodies and the record, and what the fight loop does
+// to them.
+
+#include <memory>
+
+#include "physics/impact.h"
+#include "planner/plan.h"
+#include "scene/fight.h"
+#include "scene/stage.h"
+
+namespace ringcraft {
+
+class Bout {
+ public:
+  Bout(const MotionLibrary& library, const SceneFile& scene, const FightOptions& options);
+  ~Bout();
+
+  const FightState& state() const { return state_; }
+  bool over() const;
+  bool must_get_up(FighterId fighter) const;  // fell, and its time on the ground is over
+  bool is_out(FighterId fighter) const;       // knocked out: lies until the end
+
+  Plan decide(FighterId fighter);
+  void commit(FighterId fighter, const Plan& plan);
+  void commit_get_up(FighterId fighter);
+  void commit_rest(FighterId fighter);
+  void advance_one_tick();
+  FightRecord record();
+
+ private:
+  struct Touch {  // a strike of one fighter meets another
+    FighterId attacker, target;
+    std::size_t strike = 0;
+    Contact contact;
+  };
+  struct Standing {               // what the bout knows of a fighter beyond the state
+    std::vector<Event> foreseen;  // by its latest plan
+    bool out = false;
+  };
+
+  FighterState& fighter(FighterId id) { return state_.fighters[id.at()]; }
+  const Action& action_of(FighterId id) const;
+  Vec3 ground_position(FighterId id) const;
+  bool enemies(FighterId a, FighterId b) const;
+  FighterId nearest_opponent(FighterId id) const;
+  void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {});
+  void note_strikes(FighterId id);
+  std::vector<Touch> touches() const;
+  std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;
+  void commit_touch(const Touch& touch);
+  void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
+  void push_apart();
+  void note_foreseen(const Touch& touch, Event& event);
+
+  const MotionLibrary& library_;
+  const SceneFile& scene_;
+  FightOptions options_;
+  FightState state_;
+  std::vector<Standing> standing_;
+  std::unique_ptr<Planner> planner_;
+  Stage stage_;
+  FightRecord record_;
+  Tick last_contact_ = 0;
+  Tick end_;
+};
+
+}  // namespace ringcraft

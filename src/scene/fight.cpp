@@ -1,0 +1,32 @@
+#include "scene/fight.h"
+
+#include "scene/bout.h"
+
+namespace ringcraft {
+
+// The main path. Decisions fall when an action ends; between decisions the shown bodies move, and a
+// contact may cut an action short: then the response that physics chose is the fighter's next
+// action.
+FightRecord simulate_fight(const MotionLibrary& library, const SceneFile& scene,
+                           const FightOptions& options) {
+  Bout bout(library, scene, options);
+  while (!bout.over()) {
+    const FighterId fighter = next_to_act(bout.state());
+    const Tick decision_tick = bout.state().fighters[fighter.at()].launch.end;
+    if (bout.state().now < decision_tick) {
+      bout.advance_one_tick();  // shows the bodies, tests contacts, commits hits and their
+                                // responses
+      continue;
+    }
+    if (bout.must_get_up(fighter)) {
+      bout.commit_get_up(fighter);
+    } else if (bout.is_out(fighter)) {
+      bout.commit_rest(fighter);
+    } else {
+      bout.commit(fighter, bout.decide(fighter));  // temporal expansion and search
+    }
+  }
+  return bout.record();
+}
+
+}  // namespace ringcraft

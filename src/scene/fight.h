@@ -1,0 +1,41 @@
+#pragma once
+// The fight loop: library and scene in, timeline out. Start reading here.
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "fight/timeline.h"
+#include "motion/library.h"
+#include "scene/scene_file.h"
+
+namespace ringcraft {
+
+struct FightOptions {
+  int threads = 1;                                 // never changes the result
+  std::function<void(Tick, Tick)> progress;        // now, end
+  const std::atomic<bool>* interrupted = nullptr;  // what is finished is kept
+};
+
+// How often the committed fight went through Bullet, and how well the tree had foreseen it.
+struct FightCounts {
+  std::uint64_t impacts = 0;          // committed contacts that went through the impulse step
+  std::uint64_t impulse_steps = 0;    // impulse steps in all: committed and first-time in the tree
+  double impulse_sum_Ns = 0;          // over the committed impacts
+  std::uint64_t foreseen = 0;         // committed hits that the attacker's plan had foreseen
+  std::uint64_t foreseen_agreed = 0;  // of these, the ones with the same kind of response
+  std::uint64_t memo_hits = 0, memo_misses = 0;
+};
+
+struct FightRecord {
+  Timeline timeline;
+  std::vector<BodyModel> bodies;
+  FightCounts counts;
+  std::vector<double> decision_ms, impulse_step_us;  // what the clock said
+  bool interrupted = false;
+};
+
+FightRecord simulate_fight(const MotionLibrary& library, const SceneFile& scene,
+                           const FightOptions& options = {});
+
+}  // namespace ringcraft

@@ -1,0 +1,90 @@
+#include "scene/fight_files.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "io/report.h"
+
+namespace ringcraft {
+
+namespace {
+
+std::vector<FighterLook> looks_of(const SceneFile& scene, const FightRecord& record) {
+  std::vector<FighterLook> looks;
+  for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
+    const SceneFighter& fighter = scene.fighters[i];
+    looks.push_back({fighter.name, record.bodies[i], fighter.shorts, fighter.gloves, fighter.skin});
+  }
+  return looks;
+}
+
+RunFacts facts_of(const SceneFile& scene, const FightRecord& record) {
+  RunFacts facts;
+  facts.scene = scene.name;
+  facts.seed = scene.seed;
+  for (const SceneFighter& fighter : scene.fighters) {
+    facts.contestants.push_back({fighter.style.name, fighter.style.horizon_s});
+  }
+  facts.memo_hits = record.counts.memo_hits;
+  facts.memo_misses = record.counts.memo_misses;
+  facts.impulse_steps = record.counts.impulse_steps;
+  facts.interrupted = record.interrupted;
+  return facts;
+}
+
+nlohmann::json header_of(const SceneFile& scene) {
+  nlohmann::json fighters = nlohmann::json::array();
+  for (const SceneFighter& fighter : scene.fighters) {
+    fighters.push_back({{"name", fighter.name},
+                        {"style", fighter.style.name},
+                        {"health", fighter.health / 1000.0}});
+  }
+  return {{"version", RINGCRAFT_VERSION},
+          {"scene", scene.name},
+          {"seed", scene.seed},
+          {"ring_size", scene.ring},
+          {"fighters", fighters}};
+}
+
+std::string text_of(const nlohmann::json& report, const std::filesystem::path& page) {
+  int strikes = 0, landed = 0, knockdowns = 0;
+  for (const auto& fighter : report.at("fighters")) {
+    strikes += fighter.at("strikes").get<int>();
+    landed += fighter.at("landed").get<int>();
+    knockdowns += fighter.at("knockdowns").get<int>();
+  }
+  return fmt::format("{} strikes, {} landed, {} knockdowns; open {}", strikes, landed, knockdowns,
+                     page.string());
+}
+
+}  // namespace
+
+Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
+                                 const MotionLibrary& library, const FightRecord& record,
+                                 double wall_seconds, int threads) {
+  const std::vector<FighterLook> looks = looks_of(scene, record);
+  const nlohmann::json report =
+      report_json(record.timeline, looks, library, facts_of(scene, record));
+  const std::string glb = fight_glb(record.timeline, looks, {scene.ring / 2});
+  const std::string events = events_jsonl(record.timeline, looks, header_of(scene));
+  const auto page = fight_html(glb, events, report);
+  if (!page) return tl::unexpected(page.error());
+  const ClockFacts clock{wall_seconds, threads, record.decision_ms, record.impulse_step_us};
+  const std::string timing = timing_json(record.timeline, clock).dump(1) + "\n";
+  const std::string report_text = report.dump(1) + "\n";
+  for (const auto& [name, bytes] : {std::pair<const char*, const std::string&>{"fight.glb", glb},
+                                    {"events.jsonl", events},
+                                    {"report.json", report_text},
+                                    {"timing.json", timing},
+                                    {"fight.html", *page}}) {
+    if (const auto written = write_file(folder / name, bytes); !written) {
+      return tl::unexpected(written.error());
+    }
+  }
+  return FightSummary{report.dump(1), text_of(report, folder / "fight.html")};
+}
+
+}  // namespace ringcraft

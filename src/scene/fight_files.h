@@ -1,0 +1,21 @@
+#pragma once
+// The files of a fight: fight.glb, events.jsonl, report.json, timing.json, fight.html.
+
+#include <filesystem>
+#include <string>
+
+#include "scene/fight.h"
+
+namespace ringcraft {
+
+struct FightSummary {
+  std::string report;  // report.json's text
+  std::string text;    // one line: what to open
+};
+
+// Writes all files into `folder`; each appears whole or not at all.
+Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
+                                 const MotionLibrary& library, const FightRecord& record,
+                                 double wall_seconds, int threads);
+
+}  // namespace ringcraft

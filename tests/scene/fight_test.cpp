@@ -1,0 +1,105 @@
+#include "scene/fight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "scene/library_file.h"
+
+namespace ringcraft {
+namespace {
+
+const MotionLibrary& library() {
+  static const MotionLibrary built = [] {
+    auto result = load_library("kickboxing");
+    if (!result) throw std::runtime_error(to_string(result.error()));
+    return std::move(*result);
+  }();
+  return built;
+}
+
+SceneFile scene_of(const std::string& name, const std::vector<std::string>& sets) {
+  auto scene = read_scene(name, sets);
+  if (!scene) throw std::runtime_error(to_string(scene.error()));
+  return std::move(*scene);
+}
+
+FightRecord short_duel(std::uint64_t seed, int threads) {
+  const SceneFile scene = scene_of("duel", {"duration_s=5", "seed=" + std::to_string(seed)});
+  FightOptions options;
+  options.threads = threads;
+  return simulate_fight(library(), scene, options);
+}
+
+TEST(Fight, SameSeedIsTheSameFightForAnyNumberOfThreads) {
+  const FightRecord one = short_duel(3, 1);
+  const FightRecord again = short_duel(3, 1);
+  const FightRecord two = short_duel(3, 2);
+  EXPECT_EQ(one.timeline.hash(), again.timeline.hash());
+  EXPECT_EQ(one.timeline.hash(), two.timeline.hash());
+  EXPECT_EQ(one.counts.memo_hits, two.counts.memo_hits);
+  EXPECT_EQ(one.counts.memo_misses, two.counts.memo_misses);
+}
+
+TEST(Fight, AnotherSeedIsAnotherFight) {
+  EXPECT_NE(short_duel(3, 1).timeline.hash(), short_duel(4, 1).timeline.hash());
+}
+
+TEST(Fight, EveryTickOfEveryFighterIsShown) {
+  const FightRecord record = short_duel(3, 2);
+  for (const FighterTrack& track : record.timeline.tracks) {
+    EXPECT_EQ(track.frames.size(), static_cast<std::size_t>(record.timeline.end) + 1);
+    EXPECT_EQ(track.contacts.size(), track.frames.size());
+  }
+}
+
+TEST(Fight, SegmentsFollowEachOtherWithoutAGap) {
+  const FightRecord record = short_duel(3, 2);
+  for (const FighterTrack& track : record.timeline.tracks) {
+    for (std::size_t i = 1; i < track.segments.size(); ++i) {
+      EXPECT_EQ(track.segments[i].launch.start, track.segments[i - 1].launch.end);
+    }
+  }
+}
+
+TEST(Fight, AHitIsAnsweredByAForcedResponseAtTheSameTick) {
+  const FightRecord record = short_duel(3, 2);
+  for (const Event& event : record.timeline.events) {
+    if (event.type != EventType::hit) continue;
+    const auto& segments = record.timeline.tracks[event.whom.at()].segments;
+    const bool answered = std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+      return segment.launch.forced && segment.launch.start == event.tick;
+    });
+    const bool was_down = std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+      return segment.launch.forced && segment.launch.start < event.tick && segment.launch.end > event.tick;
+    });
+    EXPECT_TRUE(answered || was_down) << "hit at tick " << event.tick;
+  }
+}
+
+TEST(Fight, ThreeFightersEachFaceTheirNearestOpponent) {
+  const SceneFile scene = scene_of("brawl3", {"duration_s=4"});
+  const FightRecord record = simulate_fight(library(), scene);
+  ASSERT_EQ(record.timeline.tracks.size(), 3u);
+  std::set<std::int32_t> deciders;
+  for (const Event& event : record.timeline.events) {
+    if (event.type != EventType::decision) continue;
+    deciders.insert(event.who.value);
+    // The opponent of a decision is the nearest fighter at that tick (all are of different teams).
+    const auto place = [&](std::size_t i) {
+      const Vec3 hips = record.timeline.tracks[i].frames[static_cast<std::size_t>(event.tick)].hips;
+      return Vec3(hips.x, 0, hips.z);
+    };
+    const float chosen = glm::distance(place(event.who.at()), place(event.whom.at()));
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i == event.who.at()) continue;
+      EXPECT_LT(chosen, glm::distance(place(event.who.at()), place(i)) + 0.35f);  // roots, not hips
+    }
+  }
+  EXPECT_EQ(deciders.size(), 3u);
+}
+
+}  // namespace
+}  // namespace ringcraft
