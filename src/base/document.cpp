@@ -36,29 +36,48 @@ std::string line_place(const toml::source_region& region) {
   return fmt::format("line {}, column {}", region.begin.line, region.begin.column);
 }
 
-// Number of parts of the longest dotted key. toml++ bounds nested values, not dotted keys, and a
-// table a million deep exhausts the stack when it is destroyed.
-int longest_key(std::string_view text) {
-  int longest = 0, parts = 1;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '#') {
-      while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
-    } else if (c == '"' || c == '\'') {
-      const bool block = text.substr(i, 3) == std::string(3, c);
-      const std::size_t width = block ? 3 : 1;
-      for (i += width; i < text.size() && text.substr(i, width) != std::string(width, c); ++i) {
-        if (c == '"' && text[i] == '\\') ++i;
-        if (!block && i < text.size() && text[i] == '\n') break;
-      }
-      i += width - 1;
-    } else if (c == '.') {
-      longest = std::max(longest, ++parts);
-    } else if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) {
-      parts = 1;
-    }
+// Index of the last character of the TOML string or comment that begins at `i`, or `i`.
+std::size_t end_of_text(std::string_view text, std::size_t i) {
+  const char c = text[i];
+  if (c == '#') return std::min(text.find('\n', i), text.size()) - 1;
+  if (c != '"' && c != '\'') return i;
+  const std::string mark(text.substr(i, 3) == std::string(3, c) ? 3 : 1, c);
+  for (i += mark.size(); i < text.size() && text.substr(i, mark.size()) != mark; ++i) {
+    if (mark.size() == 1 && text[i] == '\n') return i - 1;  // not closed
+    if (c == '"' && text[i] == '\\') ++i;
   }
-  return longest;
+  i += mark.size() - 1;
+  // Up to two more quotation marks belong to a block that they end.
+  while (mark.size() == 3 && i + 1 < text.size() && text[i + 1] == c) ++i;
+  return std::min(i, text.size());
+}
+
+// What toml++ must not see. It bounds nested values but not dotted keys, and a table a million deep
+// exhausts the stack when it is destroyed; and some characters beyond ASCII, which may only stand
+// in strings and comments, lead it into undefined behaviour.
+Result<void> first_look(std::string_view text, const std::string& file) {
+  int line = 1, parts = 1;
+  for (std::size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0; i < text.size(); ++i) {
+    const std::size_t end = end_of_text(text, i);
+    const bool is_text = end != i;
+    line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                        text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    i = end;
+    if (is_text || i >= text.size()) continue;
+    const char c = text[i];
+    if ((c & 0x80) != 0) {
+      return usage_error(file, fmt::format("line {}", line),
+                         "not valid TOML: a character beyond ASCII outside of quotes",
+                         "put it in quotes");
+    }
+    if (c == '.' && ++parts > kDeepest) {
+      return usage_error(file, fmt::format("line {}", line), "a dotted key is nested too deeply",
+                         fmt::format("keep it within {} levels", kDeepest));
+    }
+    if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) parts = 1;
+    if (c == '\n') ++line;
+  }
+  return {};
 }
 
 // TOML as JSON, with the line of every value.
@@ -140,10 +159,7 @@ Result<Document> parse(const std::string& text, const std::filesystem::path& pat
   if (text.size() > kLargestDocument) {
     return usage_error(path.string(), "", "larger than 4 MiB", "split it");
   }
-  if (longest_key(text) > kDeepest) {
-    return usage_error(path.string(), "", "a dotted key is nested too deeply",
-                       fmt::format("keep it within {} levels", kDeepest));
-  }
+  if (auto fine = first_look(text, path.string()); !fine) return tl::unexpected(fine.error());
   try {
     const toml::table parsed = toml::parse(std::string_view(text), path.string());
     auto value = Converter(path.string(), document.lines).convert(parsed, "", 0);

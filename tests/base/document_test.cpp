@@ -151,6 +151,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"ThreeBrackets", "name = \"a\"\n\n[[[fighter]]]\nx = 1\n", "line 3",
                  "not valid TOML", "correct the syntax"},
         BadInput{"BracketsAndNoName", "[[=\n", "line 1", "not valid TOML", ""},
+        BadInput{"BareUmlaut", "name = \"\u00e4\" # \u00e4\n\u00e4 = 1\n", "line 2",
+                 "a character beyond ASCII", "quotes"},
+        BadInput{"BareHangul", "name = '''\n\u00e4'''''\n\n \ud7ff = 1\n", "line 4",
+                 "a character beyond ASCII", "quotes"},
         BadInput{"NotFinite", "name = \"a\"\nhorizon_s = nan\n", "line 2, column 13", "not finite",
                  "finite"},
         BadInput{"Infinite", "name = \"a\"\ncolour = [1, 2, -inf]\n", "line 2, column 17",
@@ -161,12 +165,21 @@ INSTANTIATE_TEST_SUITE_P(
                  "line 1, column 40", "nested too deeply", "32"},
         BadInput{"VeryDeepArray", "name = " + repeated("[", 100'000), "line 1, column 264",
                  "not valid TOML", ""},
-        BadInput{"DeepKey", repeated("a.", 1'000'000) + "b = 1\n", "", "dotted key",
+        BadInput{"DeepKey", repeated("a.", 1'000'000) + "b = 1\n", "line 1", "dotted key",
                  "within 32 levels"},
-        BadInput{"DeepQuotedKey", repeated("\"=,\".", 100'000) + "b = 1\n", "", "dotted key", "32"},
+        BadInput{"DeepQuotedKey", repeated("\"=,\".", 100'000) + "b = 1\n", "line 1", "dotted key",
+                 "32"},
         BadInput{"TooLarge", "name = \"" + repeated("0123456789abcdef", 300'000) + "\"\n", "",
                  "larger than 4 MiB", "split"}),
     [](const auto& test) { return test.param.name; });
+
+TEST_F(DocumentTest, CharactersBeyondAsciiMayStandInTextAndComments) {
+  const auto document = parsed(
+      "\xef\xbb\xbf# \u00e4\nname = \"\"\"\u00e4\"\"\"\"\" # \ud7ff\n\"liked\" = {'\u00fc\"' = "
+      "1}\n");
+  ASSERT_TRUE(document) << to_string(document.error());
+  EXPECT_EQ(document->value["name"], "\u00e4\"\"");
+}
 
 TEST_F(DocumentTest, DotsInTextAndNumbersAreNotDeepKeys) {
   const auto document = parsed("name = \"\"\"" + repeated("a.", 100) + "\"\"\"  # " +
