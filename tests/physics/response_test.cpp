@@ -1,0 +1,67 @@
+#include "physics/response.h"
+
+#include <gtest/gtest.h>
+
+#include "fight/synthetic_library.h"
+#include "physics/hit.h"
+
+namespace ringcraft {
+namespace {
+
+class ResponseChoice : public testing::Test {
+ protected:
+  MotionLibrary library = synthetic::library();
+
+  const std::string& chosen(ResponseKind kind, int steps, float direction, float facing = 0) const {
+    ImpactOutcome outcome;
+    outcome.response = kind;
+    outcome.steps = steps;
+    outcome.direction = direction;
+    const ActionId id = choose_response(library, outcome, facing);
+    EXPECT_TRUE(id.valid());
+    return library.action(id).name;
+  }
+};
+
+TEST_F(ResponseChoice, KindStepsAndDirectionDecide) {
+  EXPECT_EQ(chosen(ResponseKind::absorb, 0, kPi), "absorb_back");
+  EXPECT_EQ(chosen(ResponseKind::absorb, 0, .4f), "absorb_fore");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 1, radians(170)), "steps_back_1");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 2, radians(-175)), "steps_back_2");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 3, kPi), "steps_back_3");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 1, radians(80)), "steps_left_1");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 1, radians(-80)), "steps_right_1");
+  EXPECT_EQ(chosen(ResponseKind::knockdown, 0, radians(30)), "knockdown_back");
+}
+
+TEST_F(ResponseChoice, DirectionIsSeenFromTheBody) {
+  EXPECT_EQ(chosen(ResponseKind::absorb, 0, kPi, kPi), "absorb_fore");
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 1, kPi, radians(90)), "steps_left_1");
+}
+
+TEST_F(ResponseChoice, AWrongDirectionIsWorseThanAWrongCount) {  // validation V4
+  EXPECT_EQ(chosen(ResponseKind::recovery_steps, 2, kPi / 2), "steps_left_1");
+}
+
+TEST_F(ResponseChoice, AnImpactOnALibraryPoseLeadsToAResponseOfItsKind) {
+  const BodyModel body = make_body({"b", kCanonicalHeight, 75, Sex::male});
+  const Pose pose = library.action(library.find("idle")).clip.at(0);
+  for (const float impulse : {4.0f, 75.0f, 250.0f}) {
+    const ImpactOutcome outcome =
+        stance::outcome_of(body, pose, Part::chest, {0, 0, -impulse}, {0, 0, .1f});
+    const Action& answer = library.action(choose_response(library, outcome, 0));
+    EXPECT_EQ(answer.response->kind, outcome.response) << impulse;
+    EXPECT_GT(std::abs(answer.response->direction), radians(60)) << impulse;
+  }
+}
+
+TEST_F(ResponseChoice, TheGetUpStartsWhereTheBodyLies) {
+  const Action& fall = library.action(library.find("knockdown_back"));
+  const Pose lying = placed(fall.clip.at(fall.length()), {3, -2, 2.5f});
+  const ActionId id = choose_get_up(library, library.skeleton(), lying);
+  ASSERT_TRUE(id.valid());
+  EXPECT_EQ(library.action(id).starts_lying, Lying::back);
+}
+
+}  // namespace
+}  // namespace ringcraft
