@@ -1,8 +1,8 @@
 // A fight from a scene to its record, without writing files: who did what, hit by hit.
 #include <fmt/format.h>
 
+#include "capture/library_file.h"
 #include "scene/fight.h"
-#include "scene/library_file.h"
 
 using namespace ringcraft;
 
@@ -22,12 +22,13 @@ int main(int argc, char** argv) {
   const auto name = [&](FighterId id) { return scene->fighters[id.at()].name; };
   for (const Event& event : record.timeline.events) {
     if (event.type == EventType::hit || event.type == EventType::block) {
-      fmt::print("{:6.2f} s  {} {} {}: {} on the {}, {:.0f} N s at {:.1f} m/s\n", seconds(event.tick),
-                 name(event.who), event.type == EventType::hit ? "hits" : "is blocked by",
-                 name(event.whom), event.action, event.part, glm::length(event.impulse), event.speed);
+      fmt::print("{:6.2f} s  {} {} {}: {} on the {}, {:.0f} N s at {:.1f} m/s\n",
+                 seconds(event.tick), name(event.who),
+                 event.type == EventType::hit ? "hits" : "is blocked by", name(event.whom),
+                 event.action, event.part, glm::length(event.impulse), event.speed);
     } else if (event.type == EventType::response || event.type == EventType::knockdown) {
-      fmt::print("{:6.2f} s  {} answers: {} ({})\n", seconds(event.tick), name(event.who), event.action,
-                 name_of(event.response));
+      fmt::print("{:6.2f} s  {} answers: {} ({})\n", seconds(event.tick), name(event.who),
+                 event.action, name_of(event.response));
     }
   }
   fmt::print("{} decisions, {} impacts, timeline {:016x}\n", record.decision_ms.size(),

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "capture/library_file.h"
 #include "cli/commands.h"
 #include "scene/fight.h"
 #include "scene/fight_files.h"
-#include "scene/library_file.h"
 
 namespace ringcraft {
 

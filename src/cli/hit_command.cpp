@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "capture/library_file.h"
 #include "cli/commands.h"
 #include "io/outputs.h"
-#include "scene/library_file.h"
 #include "scene/scene_file.h"
 #include "scene/single_hit.h"
 

@@ -3,9 +3,9 @@
 
 #include "base/file.h"
 #include "capture/filmstrip.h"
+#include "capture/library_file.h"
 #include "cli/commands.h"
 #include "scene/library_check.h"
-#include "scene/library_file.h"
 
 namespace ringcraft {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "scene/library_file.h"
+#include "capture/library_file.h"
 
 namespace ringcraft {
 namespace {
@@ -69,12 +69,15 @@ TEST(Fight, AHitIsAnsweredByAForcedResponseAtTheSameTick) {
   for (const Event& event : record.timeline.events) {
     if (event.type != EventType::hit) continue;
     const auto& segments = record.timeline.tracks[event.whom.at()].segments;
-    const bool answered = std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
-      return segment.launch.forced && segment.launch.start == event.tick;
-    });
-    const bool was_down = std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
-      return segment.launch.forced && segment.launch.start < event.tick && segment.launch.end > event.tick;
-    });
+    const bool answered =
+        std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+          return segment.launch.forced && segment.launch.start == event.tick;
+        });
+    const bool was_down =
+        std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+          return segment.launch.forced && segment.launch.start < event.tick &&
+                 segment.launch.end > event.tick;
+        });
     EXPECT_TRUE(answered || was_down) << "hit at tick " << event.tick;
   }
 }

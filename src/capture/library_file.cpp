@@ -1,4 +1,4 @@
-#include "scene/library_file.h"
+#include "capture/library_file.h"
 
 #include "base/file.h"
 #include "capture/library_builder.h"
