@@ -187,7 +187,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
       const Tick begin = flight.launch.start + strike.strike.active_begin;
       const Tick over = flight.launch.start + strike.strike.active_end;
       if (over <= from || over > to || spent(flight.launch, s) || victim.pending.valid()) continue;
-      if (!defense) continue;
+      if (!defense || victim.balance == 2) continue;
       const Tick guarded = victim.flight.launch.start + defense->begin;
       const Tick open = victim.flight.launch.start + defense->end;
       if (open <= begin || guarded >= over) continue;

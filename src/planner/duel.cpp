@@ -54,7 +54,11 @@ DuelNode Duel::root(const DuelSetup& setup, const FightState& state) {
     duelist.last_at_tie = fighter.last_at_tie;
     duelist.knocked_out = fighter.launch.end >= kNever;
   }
-  node.side[0].flight.launch.end = state.now;  // the planner acts now
+  node.side[0].flight.launch.end = state.now;  // the planner acts now, first where both do
+  if (node.side[1].flight.launch.end == state.now) {
+    node.side[0].last_at_tie = true;
+    node.side[1].last_at_tie = false;
+  }
   return node;
 }
 

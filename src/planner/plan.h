@@ -31,7 +31,7 @@ struct PruneSettings {
 struct PlanSettings {
   PruneSettings prune;
   std::uint64_t node_limit =
-      60'000;                // per decision; 0 is none. Iterative deepening only under a limit
+      25'000;                // per decision; 0 is none. Iterative deepening only under a limit
   int threads = 1;           // never changes the result
   double ring_half_m = 3.0;  // half the side of the square ring; 0 is no ring
   bool hits_on_downed = false;

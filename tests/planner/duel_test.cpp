@@ -1,0 +1,475 @@
+#include "planner/duel.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "physics/penetration.h"
+#include "planner/duel_fixture.h"
+
+namespace ringcraft {
+namespace {
+
+class DuelTest : public DuelFixture {};
+
+BodyCapsules in_world(const InFlight& flight, Tick tick) {
+  const Frame frame = flight.frame_at(tick);
+  BodyCapsules result = flight.table->capsules_at(flight.age(tick));
+  for (Capsule& c : result) c.a = frame.to_outer(c.a), c.b = frame.to_outer(c.b);
+  return result;
+}
+
+TEST_F(DuelTest, TablesAgreeWithPosesInTheWorld) {
+  Launch cross = launch("cross", 5, {0.3f, -0.2f, 0.7f});
+  cross.aim = 0.2f;
+  const InFlight flight(tables(), cross);
+  const BodyModel& body = tables().body();
+  for (const Tick tick : {5, 9, 20, 33, 67}) {
+    const WorldPose world = world_pose(body.skeleton, pose_at(library(), cross, tick, body.scale));
+    const BodyCapsules truth = capsules(body, world), mine = in_world(flight, tick);
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      EXPECT_LT(glm::distance(truth[i].a, mine[i].a), 1e-5f);
+      EXPECT_LT(glm::distance(truth[i].b, mine[i].b), 1e-5f);
+    }
+    const Placement root = root_at(library(), cross, tick, body.scale);
+    EXPECT_LT(glm::distance(root.position(), flight.root_at(tick).position()), 1e-5f);
+    EXPECT_NEAR(wrapped_angle(root.yaw - flight.root_at(tick).yaw), 0, 1e-5f);
+  }
+}
+
+TEST_F(DuelTest, PenetrationAgreesWithThatOfTheWorld) {
+  Random random(4);
+  int deep = 0;
+  for (int run = 0; run < 300; ++run) {
+    const char* names[] = {"idle", "guard_high", "slip_right", "step_fore", "duck"};
+    const InFlight a(tables(), launch(names[random.below(5)], 0, {0, 0, random.uniform(-1, 1)}));
+    const InFlight b(tables(), launch(names[random.below(5)], 0,
+                                      {random.uniform(-0.4f, 0.4f), random.uniform(0.2f, 1.0f),
+                                       kPi + random.uniform(-1, 1)}));
+    const Tick tick = random.below(30);
+    const float truth = deepest_penetration(in_world(a, tick), in_world(b, tick)).depth;
+    EXPECT_NEAR(penetration_at(a, b, tick), truth, 1e-4f);
+    EXPECT_NEAR(penetration_at(a, b, tick, 0.03f), truth > 0.03f ? truth : 0, 1e-4f);
+    deep += truth > 0.03f ? 1 : 0;
+  }
+  EXPECT_GT(deep, 50);
+  EXPECT_LT(deep, 290);
+}
+
+TEST_F(DuelTest, ContactsAgreeWithThoseOfTheWorld) {
+  Random random(9);
+  int met = 0;
+  for (int run = 0; run < 200; ++run) {
+    const char* names[] = {"jab", "cross", "hook", "body_cross", "front_kick"};
+    const InFlight attacker(tables(), launch(names[random.below(5)], 0, {}));
+    const InFlight target(
+        tables(),
+        launch("step_back", 0, {random.uniform(-0.2f, 0.2f), random.uniform(0.7f, 1.2f), kPi}));
+    const StrikeTable& strike = attacker.table->strikes[0];
+    for (Tick tick = strike.strike.active_begin; tick < strike.strike.active_end; ++tick) {
+      SweptBody a, b;
+      a.before = in_world(attacker, tick - 1), a.after = in_world(attacker, tick);
+      b.before = in_world(target, tick - 1), b.after = in_world(target, tick);
+      const auto truth = strike_contact(a, strike.strike, b);
+      const auto mine = contact_at(attacker, strike, target, tick);
+      ASSERT_EQ(truth.has_value(), mine.has_value());
+      if (!truth) continue;
+      ++met;
+      EXPECT_TRUE(may_reach(attacker, strike, target));
+      EXPECT_EQ(truth->struck, mine->struck);
+      EXPECT_LT(glm::distance(truth->point, target.frame_at(tick).to_outer(mine->point)), 1e-3f);
+    }
+  }
+  EXPECT_GT(met, 50);
+}
+
+TEST_F(DuelTest, AlphaBetaIsMinimaxOnRealFightsWithPruningOffAndOn) {
+  Style style;
+  style.candidates = 4;
+  for (const bool paper : {false, true}) {
+    style.leaf = paper ? LeafValue::paper : LeafValue::weighted;
+    set_style(style);
+    for (const bool prune : {false, true}) {
+      setup_.settings.prune = {};
+      if (!prune) prune_nothing();
+      for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const FightState state = random_state(seed);
+        Duel game(setup_, 110);
+        const DuelNode root = Duel::root(setup_, state);
+        SearchCounts counts;
+        const std::int32_t truth = minimax(game, root, counts);
+        for (const bool memory : {false, true}) {
+          SearchSettings settings;
+          settings.table = settings.killers = settings.history = memory;
+          Search<Duel> search(settings);
+          std::vector<DuelMove> line;
+          EXPECT_EQ(search.run(game, root, kWorst, kBest, line), truth) << seed;
+          EXPECT_LT(search.counts().nodes, counts.nodes);
+        }
+      }
+    }
+  }
+}
+
+// Temporal expansion as a calendar: ends and ties only, no bodies.
+struct Calendar {
+  const MotionLibrary& library;
+  const MotionTables& tables;
+  Tick horizon;
+  std::uint64_t nodes = 0, leaves = 0;
+
+  struct State {
+    Tick now = 0;
+    ActionId action[2];
+    Tick end[2] = {0, 0};
+    bool last[2] = {false, false};
+  };
+  void count(const State& state) {
+    ++nodes;
+    if (state.now >= horizon) {
+      ++leaves;
+      return;
+    }
+    const int next = state.end[0] != state.end[1]     ? (state.end[0] < state.end[1] ? 0 : 1)
+                     : state.last[0] != state.last[1] ? (state.last[0] ? 0 : 1)
+                                                      : 0;
+    for (const NextAction& one : tables.at(state.action[next]).next) {
+      State child = state;
+      if (state.end[0] == state.end[1]) child.last[next] = false, child.last[1 - next] = true;
+      child.action[next] = one.to;
+      child.end[next] = state.now + library.action(one.to).length();
+      child.now = std::min({child.end[0], child.end[1], horizon});
+      count(child);
+    }
+  }
+};
+
+TEST_F(DuelTest, PerftIsThatOfTheCalendarWhereNobodyMeets) {
+  Style style;
+  style.candidates = 40;  // more than there are: nothing is left out
+  style.late_sight_s = 0;
+  set_style(style);
+  prune_nothing();
+  setup_.settings.ring_half_m = 0;
+  for (const Tick lag : {0, 7, 20}) {
+    for (const Tick horizon : {30, 60, 95}) {
+      const FightState state = facing(6, lag);
+      Duel game(setup_, horizon);
+      SearchCounts counts;
+      minimax(game, Duel::root(setup_, state), counts);
+      Calendar calendar{library(), tables(), horizon};
+      Calendar::State start;
+      start.action[0] = start.action[1] = library().find("idle");
+      start.end[1] = lag;
+      calendar.count(start);
+      EXPECT_EQ(counts.nodes, calendar.nodes) << lag << " " << horizon;
+      EXPECT_EQ(counts.leaves, calendar.leaves);
+      EXPECT_EQ(counts.forced, 0u);
+    }
+  }
+}
+
+TEST_F(DuelTest, TiesAlternateInTheTree) {
+  const FightState state = facing(6);
+  Duel game(setup_, 500);
+  DuelNode node = Duel::root(setup_, state);
+  std::vector<int> actors;
+  for (int i = 0; i < 8; ++i) {  // both idle, so every decision is a tie
+    const int next = game.next_side(node);
+    actors.push_back(next);
+    EXPECT_EQ(game.actor(node), next == 0 ? Actor::maximizer : Actor::minimizer);
+    node = game.apply(node, choice(node, next, "idle")).node;
+  }
+  EXPECT_EQ(actors, (std::vector<int>{0, 1, 1, 0, 0, 1, 1, 0}));
+}
+
+TEST_F(DuelTest, EarliestFinisherActsNextAndMayActTwiceRunning) {
+  const FightState state = facing(6);
+  Duel game(setup_, 500);
+  DuelNode node = Duel::root(setup_, state);
+  node = game.apply(node, choice(node, 0, "front_kick")).node;  // 110 ticks
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(game.actor(node), Actor::minimizer);
+    node = game.apply(node, choice(node, 1, "idle")).node;  // 36 ticks each
+  }
+  EXPECT_EQ(node.now, 108);
+  node = game.apply(node, choice(node, 1, "idle")).node;
+  EXPECT_EQ(node.now, 110);
+  EXPECT_EQ(game.actor(node), Actor::maximizer);
+}
+
+// The first node on `node`'s way where somebody has been struck.
+DuelNode struck(Duel& game, DuelNode node, const DuelMove& attack, const DuelMove& wait) {
+  node = game.apply(node, attack).node;
+  return game.apply(node, wait).node;
+}
+
+TEST_F(DuelTest, HitCutsTheActionAndTheForcedNodeHasOneEdge) {
+  const FightState state = facing(0.95f);
+  Duel game(setup_, 500);
+  std::vector<DuelEvent> events;
+  game.record_into(&events);
+  const DuelNode root = Duel::root(setup_, state);
+  const DuelNode hit =
+      struck(game, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+  ASSERT_EQ(events.size(), 1u);
+  ASSERT_TRUE(interrupts(events[0].blow.contact.blocked, events[0].answer.impulse,
+                         events[0].answer.outcome));
+  EXPECT_EQ(hit.now, events[0].tick);
+  EXPECT_EQ(hit.side[1].flight.launch.end, hit.now);  // cut
+  EXPECT_EQ(hit.side[0].flight.launch.end, 110);      // the attacker goes on
+  EXPECT_EQ(hit.side[1].pending, events[0].answer.response);
+  EXPECT_EQ(game.actor(hit), Actor::forced);
+  std::vector<DuelMove> moves;
+  game.moves(hit, moves);
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_TRUE(moves[0].forced);
+  EXPECT_EQ(moves[0].action, events[0].answer.response);
+  const Child<DuelNode> after = game.apply(hit, moves[0]);
+  EXPECT_EQ(after.fault, 0);  // never pruned
+  const Launch& response = after.node.side[1].flight.launch;
+  EXPECT_TRUE(response.forced);
+  EXPECT_EQ(response.start, hit.now);
+  EXPECT_EQ(response.placement,
+            root_at(library(), hit.side[1].flight.launch, hit.now, tables().body().scale));
+}
+
+TEST_F(DuelTest, HitIsCreditedInFullToTheAttackerBySide) {
+  Style style;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;
+  set_style(style);
+  const FightState state = facing(0.95f);
+  Duel game(setup_, 500);
+  std::vector<DuelEvent> events;
+  game.record_into(&events);
+  const DuelNode root = Duel::root(setup_, state);
+  const DuelNode mine =
+      struck(game, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+  ASSERT_EQ(events.size(), 1u);
+  const double won = hit_points(setup_.side[0].weights, style, StrikeKind::front_kick,
+                                events[0].answer.damage, false);
+  EXPECT_EQ(mine.gained, thousandths(won));
+  events.clear();
+  DuelNode second = root;
+  second.side[1].last_at_tie = true;
+  const DuelNode theirs =
+      struck(game, second, choice(root, 1, "front_kick"), choice(root, 0, "turn_left"));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(theirs.gained, thousandths(-1.5 * won));
+}
+
+TEST_F(DuelTest, HorizonClipsEventsAndIntegrals) {
+  const FightState state = facing(0.95f);
+  const DuelNode root = Duel::root(setup_, state);
+  Duel whole(setup_, 500);
+  std::vector<DuelEvent> events;
+  whole.record_into(&events);
+  struck(whole, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+  ASSERT_EQ(events.size(), 1u);
+  const Tick hit = events[0].tick;
+  for (const Tick horizon : {hit - 1, hit}) {
+    Duel clipped(setup_, horizon);
+    std::vector<DuelEvent> seen;
+    clipped.record_into(&seen);
+    const DuelNode end =
+        struck(clipped, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+    EXPECT_TRUE(clipped.terminal(end));
+    EXPECT_EQ(end.now, horizon);
+    EXPECT_EQ(seen.size(), horizon == hit ? 1u : 0u);
+  }
+}
+
+TEST_F(DuelTest, LocationAddsUpHoweverTheRouteIsCut) {
+  const FightState state = facing(2);
+  Duel game(setup_, 72);
+  const DuelNode root = Duel::root(setup_, state);
+  // Fighter 0 kicks the air; fighter 1's way is cut into one action or into two.
+  DuelNode cut = game.apply(root, choice(root, 0, "front_kick")).node;
+  cut = game.apply(cut, choice(cut, 1, "idle")).node;
+  cut = game.apply(cut, choice(cut, 1, "idle")).node;
+  ASSERT_EQ(cut.now, 72);
+  double sum = 0;
+  for (Tick tick = 6; tick <= 72; tick += 6) {
+    const Placement own = cut.side[0].flight.root_at(tick);
+    const float distance = glm::distance(own.position(), cut.side[1].flight.root_at(72).position());
+    sum += 0.05 * location_rate(setup_.side[0].weights, distance, 1, 2);
+  }
+  EXPECT_NEAR(cut.gained / 1000.0, sum, 0.05);
+}
+
+TEST_F(DuelTest, EvadedStrikeIsCreditedToTheDefender) {
+  Style style;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;
+  set_style(style);
+  const FightState state = facing(1.0f);
+  Duel game(setup_, 200);
+  std::vector<DuelEvent> events;
+  game.record_into(&events);
+  DuelNode node = Duel::root(setup_, state);
+  node = game.apply(node, choice(node, 0, "cross")).node;
+  node = game.apply(node, choice(node, 1, "pull_away")).node;
+  while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, DuelEvent::Kind::evaded);
+  // kappa_f 1.5 times w_d 0.3 of the clean damage of 5 points, against the planner.
+  EXPECT_EQ(node.gained, thousandths(-1.5 * 0.3 * 5));
+}
+
+TEST_F(DuelTest, StrikeAtNobodyIsNotEvaded) {
+  const FightState state = facing(2.5f);
+  Duel game(setup_, 200);
+  std::vector<DuelEvent> events;
+  game.record_into(&events);
+  DuelNode node = Duel::root(setup_, state);
+  node = game.apply(node, choice(node, 0, "cross")).node;
+  node = game.apply(node, choice(node, 1, "guard_high")).node;
+  while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
+  EXPECT_TRUE(events.empty());
+}
+
+TEST_F(DuelTest, LateSightWithholdsParticularDefensesOnly) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  const auto offered = [&](Tick age) {
+    FightState state = facing(0.95f);
+    state.fighters[1].launch = launch("front_kick", -age, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    const DuelNode root = Duel::root(setup_, state);
+    std::vector<DuelMove> moves;
+    game.moves(root, moves);
+    std::set<std::string> names;
+    for (const DuelMove& move : moves) names.insert(library().action(move.action).name);
+    return names;
+  };
+  const std::set<std::string> young = offered(29), seen = offered(30);
+  EXPECT_EQ(young.count("slip_right") + young.count("duck"), 0u);
+  EXPECT_EQ(seen.count("slip_right") + seen.count("duck"), 2u);
+  for (const char* broad : {"guard_high", "pull_away", "step_back", "cross"}) {
+    EXPECT_EQ(young.count(broad), 1u) << broad;
+  }
+}
+
+TEST_F(DuelTest, CandidatesAreAsManyAtEveryDepthAndOfEveryKind) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    FightState state = random_state(seed);
+    Duel game(setup_, 400);
+    DuelNode node = Duel::root(setup_, state);
+    Random random(seed);
+    for (int depth = 0; depth < 8 && !game.terminal(node); ++depth) {
+      std::vector<DuelMove> moves;
+      game.moves(node, moves);
+      if (game.actor(node) != Actor::forced) {
+        EXPECT_EQ(moves.size(), 6u) << depth;
+        std::set<Kind> kinds;
+        for (const DuelMove& move : moves) kinds.insert(library().action(move.action).kind);
+        EXPECT_TRUE(kinds.count(Kind::idle) && kinds.count(Kind::transition) &&
+                    kinds.count(Kind::defense) && kinds.count(Kind::attack));
+      }
+      const auto pick = random.below(static_cast<int>(moves.size()));
+      node = game.apply(node, moves[static_cast<std::size_t>(pick)]).node;
+    }
+  }
+}
+
+TEST_F(DuelTest, ShowingTheBackIsPrunedButSomethingIsAlwaysLeft) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  FightState state = facing(1.2f);
+  state.fighters[0].launch.placement.yaw = radians(90);  // turning left again shows the back
+  Duel game(setup_, 240);
+  std::vector<DuelMove> moves;
+  game.moves(Duel::root(setup_, state), moves);
+  const ActionId away = library().find("turn_left");
+  EXPECT_TRUE(std::none_of(moves.begin(), moves.end(),
+                           [&](const DuelMove& move) { return move.action == away; }));
+  EXPECT_GT(game.counts().back_turned, 0u);
+  state.fighters[0].launch.placement.yaw = kPi;  // whatever it does, the back is turned
+  game.moves(Duel::root(setup_, state), moves);
+  EXPECT_GE(moves.size(), 1u);
+  setup_.settings.prune.back_turned = false;
+  Duel unpruned(setup_, 240);
+  unpruned.moves(Duel::root(setup_, state), moves);
+  EXPECT_EQ(unpruned.counts().back_turned, 0u);
+  EXPECT_GT(moves.size(), 10u);
+}
+
+TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
+  const FightState state = facing(0.6f);
+  const DuelNode root = Duel::root(setup_, state);
+  Duel game(setup_, 240);
+  DuelNode node = game.apply(root, choice(root, 0, "step_fore")).node;
+  EXPECT_GT(game.apply(node, choice(node, 1, "step_fore")).fault, 0);
+  EXPECT_EQ(game.counts().penetration, 1u);
+  setup_.settings.prune.penetration = false;
+  Duel unpruned(setup_, 240);
+  node = unpruned.apply(root, choice(root, 0, "step_fore")).node;
+  EXPECT_EQ(unpruned.apply(node, choice(node, 1, "step_fore")).fault, 0);
+}
+
+TEST_F(DuelTest, TakingASeenBlowWithoutDefendingIsPruned) {
+  FightState state = facing(0.95f);
+  state.fighters[1].launch = launch("front_kick", -31, state.fighters[1].launch.placement);
+  Duel game(setup_, 240);
+  const DuelNode root = Duel::root(setup_, state);
+  const Child<DuelNode> idle = game.apply(root, choice(root, 0, "turn_left"));
+  ASSERT_TRUE(idle.node.side[0].pending.valid());
+  EXPECT_GT(idle.fault, 0);
+  EXPECT_EQ(game.counts().unanswered_hit, 1u);
+  EXPECT_EQ(game.apply(root, choice(root, 0, "guard_high")).fault, 0);
+}
+
+TEST_F(DuelTest, DownedFightersAreHitOnlyWhereTheSceneSaysSo) {
+  FightState state = facing(0.9f);
+  state.fighters[1].balance = 2;
+  state.fighters[1].launch = launch("duck", -10, state.fighters[1].launch.placement);
+  for (const bool allowed : {false, true}) {
+    setup_.settings.hits_on_downed = allowed;
+    Duel game(setup_, 240);
+    std::vector<DuelEvent> events;
+    game.record_into(&events);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[1].flight.launch.end = 200;
+    node = game.apply(node, choice(node, 0, "body_cross")).node;
+    EXPECT_EQ(events.size(), allowed ? 1u : 0u);
+    EXPECT_FALSE(node.side[1].pending.valid());  // lies already: nothing is cut
+  }
+}
+
+TEST_F(DuelTest, FallIsFollowedByAForcedGetUp) {
+  FightState state = facing(1.5f, 30);
+  state.fighters[1].balance = 2;
+  state.fighters[1].launch = launch("knockdown_back", -140, state.fighters[1].launch.placement);
+  Duel game(setup_, 400);
+  DuelNode node = Duel::root(setup_, state);
+  node = game.apply(node, choice(node, 0, "idle")).node;
+  ASSERT_EQ(node.now, 10);
+  EXPECT_EQ(game.actor(node), Actor::forced);
+  std::vector<DuelMove> moves;
+  game.moves(node, moves);
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_EQ(library().action(moves[0].action).kind, Kind::get_up);
+  node = game.apply(node, moves[0]).node;
+  EXPECT_EQ(node.side[1].balance, 2);
+  EXPECT_EQ(node.side[1].flight.launch.end, 10 + 180);
+}
+
+TEST_F(DuelTest, HashSeesWhatTheFutureDependsOn) {
+  const DuelNode root = Duel::root(setup_, random_state(3));
+  Duel game(setup_, 240);
+  const std::uint64_t hash = game.hash(root);
+  DuelNode gained = root;
+  gained.gained = 12345;  // how the node was reached
+  EXPECT_EQ(game.hash(gained), hash);
+  DuelNode tie = root, spent = root, moved = root, balance = root;
+  tie.side[1].last_at_tie = true;
+  spent.side[0].flight.launch.spent = 1;
+  moved.side[0].flight.launch.placement.x += 1e-4f;
+  balance.side[1].balance = 1;
+  for (const DuelNode& other : {tie, spent, moved, balance}) EXPECT_NE(game.hash(other), hash);
+}
+
+}  // namespace
+}  // namespace ringcraft

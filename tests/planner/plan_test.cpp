@@ -1,0 +1,260 @@
+#include "planner/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "planner/duel_fixture.h"
+
+namespace ringcraft {
+namespace {
+
+class PlanTest : public DuelFixture {
+ protected:
+  static Style quick() {
+    Style style;
+    style.horizon_s = 0.9;
+    style.candidates = 5;
+    return style;
+  }
+  static void expect_same(const Plan& a, const Plan& b) {
+    EXPECT_EQ(a.launch, b.launch);
+    EXPECT_EQ(a.record.nodes, b.record.nodes);
+    EXPECT_EQ(a.record.leaves, b.record.leaves);
+    EXPECT_EQ(a.record.forced_nodes, b.record.forced_nodes);
+    EXPECT_EQ(a.record.pruned_unanswered_hit, b.record.pruned_unanswered_hit);
+    EXPECT_EQ(a.record.pruned_back_turned, b.record.pruned_back_turned);
+    EXPECT_EQ(a.record.pruned_penetration, b.record.pruned_penetration);
+    EXPECT_EQ(a.record.pruned_candidates, b.record.pruned_candidates);
+    EXPECT_EQ(a.record.chosen, b.record.chosen);
+    ASSERT_EQ(a.record.lines.size(), b.record.lines.size());
+    for (std::size_t i = 0; i < a.record.lines.size(); ++i) {
+      EXPECT_EQ(a.record.lines[i].actions, b.record.lines[i].actions);
+      EXPECT_EQ(a.record.lines[i].score, b.record.lines[i].score);
+    }
+    EXPECT_EQ(a.foreseen.size(), b.foreseen.size());
+  }
+};
+
+TEST_F(PlanTest, SameForAnyNumberOfThreads) {
+  PlanSettings one, many;
+  many.threads = 3;
+  Planner a(library(), contenders(2, quick()), one, 5),
+      b(library(), contenders(2, quick()), many, 5);
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const FightState state = random_state(seed);
+    expect_same(a.plan(state, FighterId(0), 0), b.plan(state, FighterId(0), 0));
+    EXPECT_EQ(a.memo_counts().hits, b.memo_counts().hits);
+    EXPECT_EQ(a.memo_counts().misses, b.memo_counts().misses);
+  }
+}
+
+TEST_F(PlanTest, SameSeedTwiceAndAWarmMemoChangesNothing) {
+  const FightState state = random_state(11);
+  Planner a(library(), contenders(2, quick()), {}, 5), b(library(), contenders(2, quick()), {}, 5);
+  b.plan(random_state(12), FighterId(1), 0);  // fills the memo
+  const Plan first = a.plan(state, FighterId(0), 0);
+  expect_same(first, b.plan(state, FighterId(0), 0));
+  expect_same(first, a.plan(state, FighterId(0), 0));
+  EXPECT_EQ(a.memo_counts().misses > 0, true);
+}
+
+TEST_F(PlanTest, SeedsChooseDifferentlyAmongNearlyEqualMovesOnly) {
+  Style soft = quick();
+  soft.temperature = 3;
+  const FightState state = random_state(2);
+  std::set<std::int32_t> chosen;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Planner planner(library(), contenders(2, soft), {}, seed);
+    const Plan plan = planner.plan(state, FighterId(0), 0);
+    chosen.insert(plan.record.chosen);
+    const auto& lines = plan.record.lines;
+    EXPECT_GE(lines[static_cast<std::size_t>(plan.record.chosen)].score, lines[0].score - 12'000);
+  }
+  EXPECT_GT(chosen.size(), 1u);
+  soft.temperature = 0;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    Planner planner(library(), contenders(2, soft), {}, seed);
+    EXPECT_EQ(planner.plan(state, FighterId(0), 0).record.chosen, 0);
+  }
+}
+
+TEST_F(PlanTest, AlphaBetaAndMinimaxPlanTheSame) {
+  Style style = quick();
+  style.candidates = 4;
+  style.horizon_s = 0.75;
+  style.temperature = 0.5;
+  PlanSettings plain;
+  plain.alpha_beta = false;
+  plain.node_limit = 0;
+  PlanSettings fast;
+  fast.node_limit = 0;
+  Planner a(library(), contenders(2, style), plain, 1), b(library(), contenders(2, style), fast, 1);
+  for (std::uint64_t seed = 20; seed < 26; ++seed) {
+    const FightState state = random_state(seed);
+    const Plan truth = a.plan(state, FighterId(0), 0), plan = b.plan(state, FighterId(0), 0);
+    EXPECT_EQ(truth.record.lines[0].score, plan.record.lines[0].score);
+    EXPECT_EQ(truth.launch, plan.launch);
+    EXPECT_LT(plan.record.nodes, truth.record.nodes);
+  }
+}
+
+TEST_F(PlanTest, LaunchFollowsFromTheStateMachine) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  const FightState state = random_state(4);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Launch& last = state.fighters[0].launch;
+  ASSERT_NE(library().machine().edge(last.action, plan.launch.action), nullptr);
+  EXPECT_EQ(plan.launch.start, state.now);
+  EXPECT_EQ(plan.launch.end, state.now + library().action(plan.launch.action).length());
+  const std::string& name = library().action(plan.launch.action).name;
+  EXPECT_EQ(plan.record.lines[static_cast<std::size_t>(plan.record.chosen)].actions[0], name);
+  // The tree placed it where the fight will.
+  const DuelNode root = Duel::root(setup_, state);
+  Duel game(setup_, 240);
+  const DuelNode child = game.apply(root, choice(root, 0, name.c_str())).node;
+  const Launch& mine = child.side[0].flight.launch;
+  EXPECT_NEAR(mine.placement.x, plan.launch.placement.x, 1e-5f);
+  EXPECT_NEAR(mine.placement.z, plan.launch.placement.z, 1e-5f);
+  EXPECT_NEAR(mine.aim, plan.launch.aim, 1e-5f);
+}
+
+TEST_F(PlanTest, LinesComeBestFirstAndNameActors) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  FightState state = random_state(4);
+  state.fighters[1].launch.end = state.now;
+  state.fighters[1].launch.start = state.now - 36;
+  const Plan plan = planner.plan(state, FighterId(1), 0);
+  ASSERT_GT(plan.record.lines.size(), 1u);
+  ASSERT_LE(plan.record.lines.size(), 6u);
+  for (std::size_t i = 0; i < plan.record.lines.size(); ++i) {
+    const Line& line = plan.record.lines[i];
+    EXPECT_EQ(line.actions.size(), line.actors.size());
+    EXPECT_EQ(line.actors[0], 1);
+    if (i > 0) {
+      EXPECT_LE(line.score, plan.record.lines[i - 1].score);
+    }
+  }
+  EXPECT_GT(plan.record.leaves, 0u);
+  EXPECT_GT(plan.record.nodes, plan.record.leaves);
+}
+
+TEST_F(PlanTest, NodeLimitShortensTheHorizonButAlwaysAnswers) {
+  Style style = quick();
+  style.horizon_s = 2;
+  const FightState state = random_state(1);
+  Tick last = 0;
+  for (const std::uint64_t limit : {5, 200, 1500, 20'000}) {
+    PlanSettings settings;
+    settings.node_limit = limit;
+    Planner planner(library(), contenders(2, style), settings, 3);
+    const Plan plan = planner.plan(state, FighterId(0), 0);
+    EXPECT_TRUE(plan.launch.action.valid());
+    EXPECT_LE(plan.record.nodes, std::max<std::uint64_t>(limit, 10));
+    EXPECT_GE(plan.record.horizon, last);
+    last = plan.record.horizon;
+  }
+  EXPECT_GT(last, ticks(1.0));
+}
+
+TEST_F(PlanTest, FallenFighterGetsUp) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  FightState state = facing(1.5f, 20);
+  state.fighters[0].balance = 2;
+  state.fighters[0].launch = launch("knockdown_back", -150, state.fighters[0].launch.placement);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  EXPECT_EQ(library().action(plan.launch.action).kind, Kind::get_up);
+  EXPECT_TRUE(plan.launch.forced);
+}
+
+TEST_F(PlanTest, ForeseenEventsAreThoseOfTheChosenLine) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  FightState state = facing(0.95f);
+  // The opponent has just begun a long kick at nobody: it can be hit.
+  state.fighters[1].launch = launch("front_kick", -70, state.fighters[1].launch.placement);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  ASSERT_FALSE(plan.foreseen.empty());
+  for (const Event& event : plan.foreseen) {
+    EXPECT_GT(event.tick, state.now);
+    EXPECT_LE(event.tick, state.now + plan.record.horizon);
+    EXPECT_NE(event.who, event.whom);
+  }
+  EXPECT_TRUE(std::any_of(plan.foreseen.begin(), plan.foreseen.end(), [](const Event& event) {
+    return event.who == FighterId(0) && event.type != EventType::miss && event.damage > 0;
+  }));
+}
+
+TEST_F(PlanTest, RarityMakesARepeatedActionCostly) {
+  Style style = quick();
+  style.temperature = 0;
+  style.rarity_weight = 20;
+  const FightState state = facing(0.95f);
+  Planner planner(library(), contenders(2, style), {}, 3);
+  const ActionId first = planner.plan(state, FighterId(0), 0).launch.action;
+  for (int i = 0; i < 20; ++i) planner.note_launch(FighterId(0), first);
+  EXPECT_NE(planner.plan(state, FighterId(0), 0).launch.action, first);
+}
+
+TEST_F(PlanTest, ThirdFightersBlowIsAThreat) {
+  // A kick of fighter 2 is on its way to where fighter 0 stands; fighter 1 is far off.
+  FightState state = facing(4);
+  FighterState third = state.fighters[1];
+  third.launch = launch("front_kick", -35, {0.93f, -2, -kPi / 2});
+  third.opponent = FighterId(0);
+  state.fighters.push_back(third);
+  state.fighters[0].opponent = FighterId(1);
+  Style style = quick();
+  style.temperature = 0;
+  Planner planner(library(), contenders(3, style), {}, 3);
+  const Plan threatened = planner.plan(state, FighterId(0), 0);
+  state.fighters[2].launch.placement = {0.93f, 2.5f, -kPi / 2};
+  const Plan safe = planner.plan(state, FighterId(0), 0);
+  EXPECT_LT(threatened.record.lines[0].score, safe.record.lines[0].score);
+}
+
+TEST_F(PlanTest, ChiefOpponentIsTheNearestWhereNoneIsNamed) {
+  FightState state = facing(1.0f);
+  FighterState third = state.fighters[1];
+  third.launch.placement = {2, 2, 0};
+  state.fighters.push_back(third);
+  for (FighterState& fighter : state.fighters) fighter.opponent = {};
+  Planner planner(library(), contenders(3, quick()), {}, 3);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  for (const Line& line : plan.record.lines) {
+    for (const int actor : line.actors) EXPECT_NE(actor, 2);
+  }
+}
+
+TEST_F(PlanTest, MemoAnswersWhatRecomputingAnswers) {
+  ImpactMemo own({&tables()});
+  Random random(8);
+  std::vector<LandedBlow> blows;
+  const char* struck[] = {"idle", "step_back", "guard_high", "jab"};
+  for (int i = 0; i < 25; ++i) {
+    LandedBlow blow;
+    blow.attack = library().find(random.below(2) == 0 ? "cross" : "front_kick");
+    blow.struck_action = library().find(struck[random.below(4)]);
+    blow.attack_age = 25 + random.below(10);
+    blow.struck_age = random.below(40);
+    blow.contact.striker = random.below(2) == 0 ? Part::right_hand : Part::right_foot;
+    blow.contact.struck = random.below(2) == 0 ? Part::head : Part::abdomen;
+    blow.contact.normal = yaw_rotation(random.uniform(-0.6f, 0.6f)) * kForward;
+    blow.contact.velocity = -blow.contact.normal * random.uniform(1, 9);
+    blow.attacker_yaw = kPi + random.uniform(-0.4f, 0.4f);
+    blows.push_back(blow);
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const LandedBlow& blow : blows) EXPECT_EQ(own.answer(blow), own.recomputed(blow));
+  }
+  EXPECT_EQ(own.counts().lookups, 50u);
+  EXPECT_LE(own.counts().entries, 25u);
+  // Blows that differ by less than a step share an answer.
+  LandedBlow near = blows[0];
+  const std::uint64_t entries = own.counts().entries;
+  near.contact.velocity *= 1.0001f;
+  EXPECT_EQ(own.answer(near), own.answer(blows[0]));
+  EXPECT_EQ(own.counts().entries, entries);
+}
+
+}  // namespace
+}  // namespace ringcraft
