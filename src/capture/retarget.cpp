@@ -102,46 +102,6 @@ Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source
   return pose;
 }
 
-// Elbows and knees are hinges on our body. The angle by which the upper bone must turn about itself
-// so that the lower one flexes about the hinge; `trust` falls to zero for a straight limb.
-float hinge_twist(const Quat& lower, Vec3 bone, Vec3 hinge, float& trust) {
-  const Vec3 axis = glm::cross(bone, lower * bone);
-  const float sine = glm::length(axis);
-  const float flexion = std::atan2(sine, glm::dot(bone, lower * bone));
-  trust = glm::smoothstep(radians(8), radians(30), flexion);
-  if (trust <= 0) return 0;
-  const Vec3 unit = axis / sine;
-  const float twist = std::atan2(glm::dot(glm::cross(hinge, unit), bone), glm::dot(hinge, unit));
-  // An axis that points the other way is a joint bent backwards a little: noise, not a half turn.
-  if (std::abs(twist) > radians(120)) {
-    trust = 0;
-    return 0;
-  }
-  return twist;
-}
-
-void turn_to_hinges(const Skeleton& target, Clip& clip) {
-  for (const Side side : {Side::left, Side::right})
-    for (const Limb& limb : {arm(side), leg(side)}) {
-      const Vec3 bone = glm::normalize(target.offset[index(limb.middle)]);
-      const bool is_leg = limb.root == leg(side).root;
-      const Vec3 hinge = is_leg ? kLeft : (side == Side::left ? -kUp : kUp);
-      std::vector<float> twist(clip.frames.size());
-      std::vector<float> trust(clip.frames.size());
-      for (std::size_t i = 0; i < clip.frames.size(); ++i)
-        twist[i] = hinge_twist(clip.frames[i].rotation[index(limb.middle)], bone, hinge, trust[i]);
-      // A straight limb goes on with the twist of the moments around it.
-      const std::vector<float> smooth = smoothed(twist, trust, 0.03f);
-      for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-        Pose& pose = clip.frames[i];
-        const Quat turn = glm::angleAxis(smooth[i], bone);
-        pose.rotation[index(limb.root)] = glm::normalize(pose.rotation[index(limb.root)] * turn);
-        pose.rotation[index(limb.middle)] =
-            glm::normalize(glm::inverse(turn) * pose.rotation[index(limb.middle)]);
-      }
-    }
-}
-
 // Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on
 // to the knees.
 void calm_hips(Clip& clip) {
@@ -238,6 +198,7 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   for (Pose& pose : clip.frames) pose.hips.y -= floor;
   calm_hips(clip);
   clear_floor(target, clip);
+  fit_wrists(clip);
   plant_feet(target, clip, settings);
   unroll_rotations(clip);
   return clip;

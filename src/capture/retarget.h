@@ -32,6 +32,13 @@ std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& m
 // path; hips sink a little where a leg would not reach. Contacts must be labelled.
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings = {});
 
+// Turns upper arms and thighs about themselves until elbows and knees flex about their hinges (y of
+// the lower arm, x of the lower leg); the lower bones keep their directions.
+void turn_to_hinges(const Skeleton& skeleton, Clip& clip);
+
+// Shares pronation between forearm and hand, and keeps the hand within a wrist's range.
+void fit_wrists(Clip& clip);
+
 // Lifts hips, elbows, wrists and knuckles that would lie in the floor, as happens when longer arms
 // or shorter legs sit where the captured person sat.
 void clear_floor(const Skeleton& skeleton, Clip& clip);

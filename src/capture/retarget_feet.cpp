@@ -11,8 +11,9 @@ namespace {
 
 constexpr float kSoftShare = 0.97f;  // of a leg's length: beyond it its reach is eased
 constexpr float kFoldedShare =
-    0.225f;  // of a leg's length: hip to ankle when the knee is fully bent
-constexpr float kLargestShift = 0.12f;  // m by which the hips give way
+    0.262f;  // of a leg's length: hip to ankle when the knee bends by 150 degrees
+constexpr float kLargestShift = 0.12f;        // m by which the hips give way
+constexpr float kDorsiflexion = radians(34);  // an ankle under the body's weight
 constexpr float kNearFloor =
     0.06f;  // m: a ball of the foot lower than this bends its toes to the floor
 
@@ -150,6 +151,35 @@ void fit_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Cl
   for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y += smooth[i];
 }
 
+void place_leg(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i,
+               Pose& pose) {
+  const WorldPose world = world_pose(skeleton, pose);
+  LimbTarget target;
+  target.position = ankle_at(skeleton, side, track, i);
+  target.pole = present_pole(world, leg(side), world.rotation[index(leg(side).root)] * kForward);
+  target.soft_share = kSoftShare;
+  solve_limb(skeleton, leg(side), target, pose);
+  set_world_rotation(skeleton, leg(side).end, track.foot[i], pose);
+}
+
+// A shin that leans farther than the ankle bends lifts the heel; that moves the ankle in turn.
+void lift_heels(const Skeleton& skeleton, const Clip& clip, std::array<FootTrack, 2>& feet) {
+  constexpr int kRounds = 4;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    for (const Side side : {Side::left, Side::right}) {
+      FootTrack& track = feet[static_cast<std::size_t>(side)];
+      Pose pose = clip.frames[i];
+      for (int round = 0; round < kRounds; ++round) {
+        place_leg(skeleton, side, track, i, pose);
+        const Quat ankle = pose.rotation[index(leg(side).end)];
+        const float bend = -wrapped_angle(2 * std::atan2(ankle.x, ankle.w));
+        if (bend <= kDorsiflexion) break;
+        track.foot[i] = track.foot[i] * glm::angleAxis(bend - kDorsiflexion, kLeft);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings) {
@@ -159,20 +189,13 @@ void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& se
     track = foot_track(skeleton, clip, side);
     pin(skeleton, clip, side, settings, track);
   }
+  lift_heels(skeleton, clip, feet);
   fit_hips(skeleton, feet, clip);
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-    Pose& pose = clip.frames[i];
     for (const Side side : {Side::left, Side::right}) {
       const FootTrack& track = feet[static_cast<std::size_t>(side)];
-      const WorldPose world = world_pose(skeleton, pose);
-      LimbTarget target;
-      target.position = ankle_at(skeleton, side, track, i);
-      target.pole =
-          present_pole(world, leg(side), world.rotation[index(leg(side).root)] * kForward);
-      target.soft_share = kSoftShare;
-      solve_limb(skeleton, leg(side), target, pose);
-      set_world_rotation(skeleton, leg(side).end, track.foot[i], pose);
-      set_world_rotation(skeleton, toes(side), track.toe[i], pose);
+      place_leg(skeleton, side, track, i, clip.frames[i]);
+      set_world_rotation(skeleton, toes(side), track.toe[i], clip.frames[i]);
     }
   }
 }

@@ -12,7 +12,8 @@ constexpr float kSeatHeight = 0.105f;  // m of the hip joints over the floor whe
 constexpr float kPalm = 0.035f;   // m of wrist and knuckles over the floor when the hand carries
 constexpr float kElbow = 0.045f;  // m of the elbow over the floor
 constexpr float kFist = 0.085f;   // m from wrist to knuckles
-constexpr float kEase = 0.04f;    // m over which a height eases into its least
+constexpr float kLargestBend = radians(60);  // of the wrist on the floor
+constexpr float kEase = 0.04f;               // m over which a height eases into its least
 
 // At least `least`, without a corner: equals `height` from `least + kEase` on.
 float eased_up(float height, float least) {
@@ -26,17 +27,23 @@ void lift_arm(const Skeleton& skeleton, Side side, Pose& pose) {
   WorldPose world = world_pose(skeleton, pose);
   const Limb limb = arm(side);
   const Vec3 along = glm::normalize(skeleton.offset[index(limb.end)]);
-  // 1. Bend the hand at the wrist until the knuckles lie no lower than the palm.
   const Vec3 wrist = world.position[index(limb.end)];
   const Vec3 points = world.rotation[index(limb.end)] * along;
-  const float wrist_height = eased_up(wrist.y, kPalm);
+  const Vec3 forearm = world.rotation[index(limb.middle)] * along;
+  float wrist_height = eased_up(wrist.y, kPalm);
   const float knuckles = wrist_height + points.y * kFist;
   if (knuckles < kPalm + kEase) {
+    // 1. Bend the hand at the wrist until the knuckles lie no lower than the palm, or as far as it
+    // goes.
     const float up = std::clamp((eased_up(knuckles, kPalm) - wrist_height) / kFist, -1.0f, 1.0f);
-    const Vec3 ground = normalized_or(Vec3(points.x, 0, points.z), Vec3(0, 0, 1));
+    const Vec3 ground = normalized_or(Vec3(points.x, 0, points.z), kForward);
     const Vec3 wanted = ground * std::sqrt(std::max(0.0f, 1 - up * up)) + kUp * up;
+    const Quat bend = rotation_between(forearm, wanted);
+    const float share = std::min(1.0f, kLargestBend / std::max(glm::angle(bend), 1e-3f));
+    const Vec3 bent = glm::slerp(Quat(1, 0, 0, 0), bend, share) * forearm;
     set_world_rotation(skeleton, limb.end,
-                       rotation_between(points, wanted) * world.rotation[index(limb.end)], pose);
+                       rotation_between(points, bent) * world.rotation[index(limb.end)], pose);
+    wrist_height = std::max(wrist_height, kPalm - bent.y * kFist);
   }
   // 2. Lift the wrist, and the elbow by turning the arm about the line from shoulder to wrist.
   const Vec3 elbow = world.position[index(limb.middle)];

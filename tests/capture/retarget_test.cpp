@@ -169,6 +169,29 @@ TEST(Retarget, AMissingJointIsAnErrorThatNamesIt) {
   EXPECT_NE(clip.error().place.find("leftLowerLeg"), std::string::npos);
 }
 
+TEST(Retarget, WristsShareTheTurnOfTheForearmAndKeepTheirRange) {
+  const Skeleton skeleton = canonical_skeleton();
+  Clip clip;
+  for (int i = 0; i < 60; ++i) {
+    Pose pose = rest_pose(skeleton);
+    pose.rotation[index(Joint::left_hand)] = glm::angleAxis(radians(80), kLeft);
+    pose.rotation[index(Joint::right_hand)] = glm::angleAxis(radians(-100), kForward);
+    clip.frames.push_back(pose);
+  }
+  const Quat left_before = world_pose(skeleton, clip.frames[30]).rotation[index(Joint::left_hand)];
+  fit_wrists(clip);
+  const Pose& pose = clip.frames[30];
+  const Quat left_after = world_pose(skeleton, pose).rotation[index(Joint::left_hand)];
+  EXPECT_LT(glm::length(rotation_vector(glm::inverse(left_before) * left_after)), radians(0.5f));
+  EXPECT_NEAR(degrees(glm::length(rotation_vector(pose.rotation[index(Joint::left_lower_arm)]))),
+              40, 0.5);
+  EXPECT_NEAR(degrees(glm::length(rotation_vector(pose.rotation[index(Joint::left_hand)]))), 40,
+              0.5);
+  const float bent = degrees(glm::length(rotation_vector(pose.rotation[index(Joint::right_hand)])));
+  EXPECT_LT(bent, 66);  // extension
+  EXPECT_GT(bent, 50);
+}
+
 TEST(Retarget, BonesWithoutLengthDoNoHarm) {
   const Skeleton skeleton = canonical_skeleton();
   RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
