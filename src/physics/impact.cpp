@@ -37,10 +37,10 @@ int steps_needed(const BodyModel& body, float beyond, float off, float seconds_a
 
 // How far the interrupted action itself carries the extrapolated centre of mass beyond the base: a
 // body in motion leans where it was going to set its foot, and what counts is what the blow adds.
-// Found by the same ragdoll without the blow; nothing for a body that stays over its feet.
+// Found by the same ragdoll without the blow; nothing for a body that stands well over its feet.
 Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, const Tone& tone,
                            const Base& base) {
-  constexpr float kTap = .02f;  // m, some 4 N s: so much more is still no disturbance
+  constexpr float kPlacing = .06f;  // m: a foot set down so much farther is no recovery step
   const float rate = pendulum_rate(body);
   Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
   undisturbed.set_tone(tone);
@@ -51,7 +51,7 @@ Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, cons
   }
   const Base::Beyond own = base.beyond(
       extrapolated(undisturbed.center_of_mass(), undisturbed.center_of_mass_velocity(), rate));
-  return own.distance > 0 ? own.direction * (own.distance + kTap) : Vec3{};
+  return own.distance > -kPlacing ? own.direction * (own.distance + kPlacing) : Vec3{};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "motion/ik.h"
 #include "scene/keep_out.h"
 
 namespace ringcraft {
@@ -10,7 +11,25 @@ namespace ringcraft {
 namespace {
 constexpr float kArmsReach =
     2.4f;  // m between the hips of canonical bodies: beyond it none can touch
+constexpr float kLimitTolerance = radians(2);
+
+// The pose with its joints inside their ranges; feet that are held stay where they are as far as
+// the ranges of the leg allow.
+Pose limited(const BodyModel& body, const Pose& pose, FootContacts held) {
+  Pose result = within_limits(body, pose, kLimitTolerance);
+  const WorldPose before = world_pose(body.skeleton, pose);
+  for (const Side side : {Side::left, Side::right}) {
+    const Limb limb = leg(side);
+    const WorldPose after = world_pose(body.skeleton, result);
+    const Vec3 ankle = before.position[index(limb.end)];
+    if (!held.of(side) || glm::distance(ankle, after.position[index(limb.end)]) < 1e-4f) continue;
+    const Vec3 knee_forward = after.rotation[index(limb.root)] * kForward;
+    solve_limb(body.skeleton, limb, {ankle, present_pole(after, limb, knee_forward), 1.0f}, result);
+  }
+  return within_limits(body, result, kLimitTolerance);
 }
+
+}  // namespace
 
 Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies) : library_(library) {
   for (BodyModel& body : bodies) {
@@ -80,6 +99,7 @@ void Stage::keep_out_and_record() {
       if (&other == &actor || apart > kArmsReach * actor.body.scale) continue;
       pose = kept_out(actor.body, pose, actor.playback.held(), other.swept.after);
     }
+    pose = limited(actor.body, pose, actor.playback.held());
     actor.playback.amend(pose);
     actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, pose));
     actor.track.frames.push_back(pose);
