@@ -7,16 +7,17 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kMostGirdle = radians(20);  // of the shoulder blade
-constexpr float kMostNeck = radians(75);    // head against chest
-constexpr float kMostWrist = radians(80);   // bent back on the floor
-constexpr float kMostAnkle = radians(50);   // given by the floor
-constexpr float kKneeRadius = 0.055f;       // m: height of a knee on the floor
-constexpr float kSoftReach = 0.93f;         // of a limb's length: beyond it the reach is eased
-constexpr float kClosestReach = 0.32f;      // elbow 37, knee 37 degrees: flesh meets flesh
-constexpr float kLongestReach = 0.995f;     // and never comes to this share (elbow 169 degrees)
-constexpr float kHandLength = 0.17f;        // m, wrist to finger tips
-constexpr float kHandThickness = 0.02f;     // m, half of it
+constexpr float kMostGirdle = radians(20);        // of the shoulder blade
+constexpr float kMostNeck = radians(75);          // head against chest
+constexpr float kMostWrist = radians(80);         // bent back on the floor
+constexpr float kMostAnkle = radians(50);         // given by the floor
+constexpr float kKneeRadius = 0.055f;             // m: height of a knee on the floor
+constexpr float kMostDorsiflexion = radians(31);  // of a foot with its heel down
+constexpr float kSoftReach = 0.93f;      // of a limb's length: beyond it the reach is eased
+constexpr float kClosestReach = 0.32f;   // elbow 37, knee 37 degrees: flesh meets flesh
+constexpr float kLongestReach = 0.995f;  // and never comes to this share (elbow 169 degrees)
+constexpr float kHandLength = 0.17f;     // m, wrist to finger tips
+constexpr float kHandThickness = 0.02f;  // m, half of it
 
 constexpr Side side_at(std::size_t i) {
   return i == 0 ? Side::left : Side::right;
@@ -100,7 +101,9 @@ Vec3 kneeling(const Skeleton& skeleton, const Limb& limb, const Pose& pose, Vec3
   if (knee.y >= kKneeRadius) return ankle;
   const float thigh = skeleton.bone(limb.middle), shin = skeleton.bone(limb.end);
   const float down = std::min(hip.y - kKneeRadius, thigh);
-  const Vec3 out = normalized_or(Vec3(knee.x - hip.x, 0, knee.z - hip.z), kForward);
+  // Under the hip its own direction says little: the deeper it is, the more the asked one helps.
+  const Vec3 asked = Vec3(pole.x, 0, pole.z) * (0.12f * eased(0, 0.08f, kKneeRadius - knee.y));
+  const Vec3 out = normalized_or(Vec3(knee.x - hip.x, 0, knee.z - hip.z) + asked, kForward);
   const Vec3 rests =
       hip + out * std::sqrt(std::max(0.0f, thigh * thigh - down * down)) - kUp * down;
   Vec3 along = normalized_or(ankle - rests, -kForward) * shin;
@@ -130,8 +133,9 @@ void set_arm(const Skeleton& skeleton, Side side, const ArmTarget& target, Pose&
   lay_on_floor(skeleton, side, pose);
 }
 
-void set_leg(const Skeleton& skeleton, Side side, const FootTarget& foot, Quat pelvis, Pose& pose) {
-  const Limb limb = leg(side);
+// Bends hip and knee so that the ankle is where the foot's targets want it.
+void place_ankle(const Skeleton& skeleton, const Limb& limb, const FootTarget& foot, Quat pelvis,
+                 Pose& pose) {
   const Vec3 pelvis_forward = pelvis * kForward;
   Vec3 pole = foot.knee_pole;
   if (glm::length(pole) < 1e-4f) {
@@ -149,6 +153,26 @@ void set_leg(const Skeleton& skeleton, Side side, const FootTarget& foot, Quat p
     if (rests != ankle) {
       solve_limb(skeleton, limb, {ankle + (rests - ankle) * foot.freedom, pole, 1.0f}, pose);
     }
+  }
+}
+
+// How far the shin leans over the standing foot, rad; negative where the toes point away.
+float dorsiflexion(const Skeleton& skeleton, const Limb& limb, const FootTarget& foot,
+                   const Pose& pose) {
+  const Quat shin = world_pose(skeleton, pose).rotation[index(limb.middle)];
+  const Quat turn = glm::inverse(shin) * foot_rotation(foot);
+  return -wrapped_angle(2 * std::atan2(turn.x, turn.w));
+}
+
+void set_leg(const Skeleton& skeleton, Side side, FootTarget foot, Quat pelvis, Pose& pose) {
+  const Limb limb = leg(side);
+  place_ankle(skeleton, limb, foot, pelvis, pose);
+  // An ankle that is bent to its end lifts the heel; the ball stays.
+  for (int i = 0; i < 5 && foot.freedom < 1; ++i) {
+    const float excess = dorsiflexion(skeleton, limb, foot, pose) - kMostDorsiflexion;
+    if (excess <= 0) break;
+    foot.heel += excess;
+    place_ankle(skeleton, limb, foot, pelvis, pose);
   }
   const WorldPose world = world_pose(skeleton, pose);
   const Quat shin = world.rotation[index(limb.middle)];

@@ -93,6 +93,16 @@ void FootMotion::make_angles(const SheetAction& action, const std::vector<SheetK
     std::optional<float> yaw, heel;
   };
   std::vector<Event> events;
+  std::size_t step_index = 0;
+  for (const SheetStep& step : action.steps) {
+    if (step.foot != side_) continue;
+    const Span& span = spans_[step_index++];
+    events.push_back({span.lift, {}, {}});
+    if (!step.land) continue;
+    const float turned = step.at ? step.at->z : degrees(end.yaw);
+    events.push_back({*step.land, guard_yaw + turned, guard_heel});
+  }
+  // (a key at the landing says how the foot comes down)
   for (const SheetKey& key : keys) {
     Event event{key.t, {}, {}};
     if (key.values[index(yaw)]) {
@@ -102,15 +112,6 @@ void FootMotion::make_angles(const SheetAction& action, const std::vector<SheetK
     }
     if (key.values[index(heel)]) event.heel = key.values[index(heel)]->x;
     if (event.yaw || event.heel) events.push_back(event);
-  }
-  std::size_t step_index = 0;
-  for (const SheetStep& step : action.steps) {
-    if (step.foot != side_) continue;
-    const Span& span = spans_[step_index++];
-    events.push_back({span.lift, {}, {}});
-    if (!step.land) continue;
-    const float turned = step.at ? step.at->z : degrees(end.yaw);
-    events.push_back({*step.land, guard_yaw + turned, guard_heel});
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.t < b.t; });
