@@ -96,11 +96,12 @@ Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contact
   for (const Side side : {Side::left, Side::right}) {
     if (!contacts.of(side)) continue;
     const auto corners = sole(body, world, side);
-    // Of a raised heel only the ball and the tip carry: corners within 2.5 cm of the lowest one.
+    // Ball and tip always carry (the toes bend); a raised heel does not.
     float lowest = corners[0].y;
     for (const Vec3& c : corners) lowest = std::min(lowest, c.y);
-    for (const Vec3& c : corners) {
-      if (c.y < lowest + .025f) points.push_back(c);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool heel = i % 3 == 0;
+      if (!heel || corners[i].y < lowest + .025f) points.push_back(corners[i]);
     }
   }
   return Base(points);

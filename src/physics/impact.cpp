@@ -35,13 +35,24 @@ int steps_needed(const BodyModel& body, float beyond, float off, float seconds_a
   return 4;
 }
 
-// How far the interrupted action itself carries the extrapolated centre of mass beyond the base: a
+// Where a body counts as standing that is about to set a foot under itself: `point`, drawn to the
+// middle of its base until it is well inside.
+Vec3 steadied(const Base& base, Vec3 point) {
+  constexpr float kPlacing = .06f;  // m: a foot set down so much farther is no recovery step
+  const auto drawn = [&](float share) { return glm::mix(point, base.middle(), share); };
+  float low = 0, high = 1;  // shares: not yet inside, inside
+  for (int i = 0; i < 12; ++i) {
+    const float share = i == 0 ? 0.0f : (low + high) / 2;
+    (base.beyond(drawn(share)).distance > -kPlacing ? low : high) = share;
+  }
+  return drawn(high);
+}
+
+// How far the interrupted action itself carries the extrapolated centre of mass out of its base: a
 // body in motion leans where it was going to set its foot, and what counts is what the blow adds.
 // Found by the same ragdoll without the blow; nothing for a body that stands well over its feet.
 Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, const Tone& tone,
                            const Base& base) {
-  constexpr float kPlacing = .06f;  // m: a foot set down so much farther is no recovery step
-  const float rate = pendulum_rate(body);
   Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
   undisturbed.set_tone(tone);
   Balance balance(body, frame);
@@ -49,9 +60,9 @@ Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, cons
     balance.guide(undisturbed, frame, k);
     undisturbed.step();
   }
-  const Base::Beyond own = base.beyond(
-      extrapolated(undisturbed.center_of_mass(), undisturbed.center_of_mass_velocity(), rate));
-  return own.distance > -kPlacing ? own.direction * (own.distance + kPlacing) : Vec3{};
+  const Vec3 own = extrapolated(undisturbed.center_of_mass(), undisturbed.center_of_mass_velocity(),
+                                pendulum_rate(body));
+  return own - steadied(base, own);
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ class Ragdoll {
   std::unique_ptr<World> world_;
 };
 
-// The corners of a foot's sole (heel, ball and tip, left and right), world, for a pose.
+// The corners of a foot's sole, world, for a pose: heel, ball and tip of one edge, then of the
+// other.
 std::array<Vec3, 6> sole(const BodyModel& body, const WorldPose& world, Side side);
 
 }  // namespace ringcraft
