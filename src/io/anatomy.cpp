@@ -263,7 +263,7 @@ Build build_of(const BodyModel& body) {
   const float reference = kReferenceMass * (build.female ? 0.88f : 1.0f) * cubed;
   const float thickness = std::sqrt(body.spec.mass / reference);
   build.girth = std::clamp(thickness, 0.80f, 1.45f);
-  build.belly = 0.16f * std::max(thickness - 1.08f, 0.0f);
+  build.belly = std::min(0.16f * std::max(thickness - 1.08f, 0.0f), 0.05f);
   return build;
 }
 
@@ -343,17 +343,14 @@ DistanceField cuff_field(const Build& build) {
 DistanceField anklet_field(const Build& build) {
   DistanceField field;
   Sculptor s(build, field);
-  s.follow_girth(false);
-  const float girth = build.girth;
-  s.taper(kAnkle, {0, 0.110f, -0.012f * girth}, kAnkle, {0, 0.0f, -0.006f}, 0.044f * girth, 0.043f,
-          0);
-  s.ellipsoid(kAnkle, {0, -0.028f, -0.030f}, {0.037f, 0.040f, 0.038f}, 0.03f);
-  s.taper(kAnkle, {0, 0.0f, 0.004f}, kAnkle, {0.001f, -0.026f, 0.070f}, 0.041f, 0.036f, 0.03f,
-          {1.06f, 1, 1});
-  s.cut(kAnkle, {0, 0.100f, 0}, {0, 1, 0}, 0.010f);
-  s.cut(kAnkle, {0, 0, 0.055f}, {0, 0.25f, 1}, 0.010f);
-  s.cut(kAnkle, {0, -0.030f, -0.030f}, {0, -0.55f, -1}, 0.010f);
-  field.cut({{0, 0.001f, 0}, {0, -1, 0}, 0.006f * build.scale});
+  add_leg(s, build);
+  add_foot(s);
+  field.grow(0.0050f * build.scale);
+  // Above the ankle, over the instep, open at the heel and the toes.
+  s.cut(kAnkle, {0, 0.105f, 0}, {0, 1, 0}, 0.004f);
+  s.cut(kAnkle, {0, 0, 0.055f}, {0, 0.25f, 1}, 0.008f);
+  s.cut(kAnkle, {0, -0.030f, -0.030f}, {0, -0.55f, -1}, 0.008f);
+  field.cut({{0, 0.001f * build.scale, 0}, {0, -1, 0}, 0.006f * build.scale});
   return field;
 }
 

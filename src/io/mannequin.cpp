@@ -197,7 +197,7 @@ Mannequin make_mannequin(const BodyModel& body) {
   add_piece(mannequin, grown(build, glove_field(build), even(0.011f), Region::gloves));
   add_piece(mannequin, grown(build, waistband_field(build), even(0.011f), Region::trim));
   add_piece(mannequin, grown(build, cuff_field(build), even(0.012f), Region::trim));
-  add_piece(mannequin, grown(build, anklet_field(build), even(0.012f), Region::trim));
+  add_piece(mannequin, grown(build, anklet_field(build), even(0.011f), Region::trim));
   add_piece(mannequin, grown(build, hair_field(build), even(0.0095f), Region::hair));
   add_piece(mannequin, grown(build, line_field(build, body_field), even(0.0025f), Region::hair));
   add_eyes(eye_of(build, body_field), mannequin);

@@ -17,7 +17,9 @@ struct Bodies : testing::TestWithParam<BodySpec> {};
 INSTANTIATE_TEST_SUITE_P(Mannequin, Bodies,
                          testing::Values(BodySpec{"light", 1.55f, 48.0f, Sex::female, 1.0f},
                                          BodySpec{"middle", 1.78f, 75.0f, Sex::male, 1.0f},
-                                         BodySpec{"heavy", 2.05f, 150.0f, Sex::male, 1.0f}),
+                                         BodySpec{"heavy", 2.05f, 150.0f, Sex::male, 1.0f},
+                                         BodySpec{"roundest", 1.20f, 200.0f, Sex::male, 1.0f},
+                                         BodySpec{"thinnest", 2.30f, 30.0f, Sex::female, 1.0f}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(Bodies, IsAsTallAsTheBodyAndStandsOnTheGround) {
