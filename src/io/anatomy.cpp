@@ -348,7 +348,7 @@ DistanceField anklet_field(const Build& build) {
   field.grow(0.0050f * build.scale);
   // Above the ankle, over the instep, open at the heel and the toes.
   s.cut(kAnkle, {0, 0.105f, 0}, {0, 1, 0}, 0.004f);
-  s.cut(kAnkle, {0, 0, 0.055f}, {0, 0.25f, 1}, 0.008f);
+  s.cut(kAnkle, {0, 0, 0.062f}, {0, -0.20f, 1}, 0.008f);
   s.cut(kAnkle, {0, -0.030f, -0.030f}, {0, -0.55f, -1}, 0.008f);
   field.cut({{0, 0.001f * build.scale, 0}, {0, -1, 0}, 0.006f * build.scale});
   return field;
