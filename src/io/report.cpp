@@ -131,19 +131,25 @@ json planner_json(const Timeline& timeline, const RunFacts& facts) {
 }
 
 json physics_json(const Timeline& timeline, const RunFacts& facts) {
-  std::uint64_t impacts = 0, foreseen = 0;
+  std::uint64_t impacts = 0, agreed = 0;
   double impulse = 0;
   for (const Event& event : timeline.events) {
     if (event.type != EventType::hit && event.type != EventType::block) continue;
     ++impacts;
     impulse += glm::length(event.impulse);
-    foreseen += event.foreseen ? 1u : 0u;
+    agreed += event.foreseen ? 1u : 0u;
   }
-  const double each = impacts == 0 ? 0.0 : 1.0 / static_cast<double>(impacts);
-  return {{"impacts", impacts},
-          {"impulse_steps", facts.impulse_steps},
-          {"mean_impulse_Ns", rounded(impulse * each, 4)},
-          {"foreseen_agreement", rounded(static_cast<double>(foreseen) * each, 4)}};
+  const double mean = impacts == 0 ? 0.0 : impulse / static_cast<double>(impacts);
+  json physics = {{"impacts", impacts},
+                  {"impulse_steps", facts.impulse_steps},
+                  {"mean_impulse_Ns", rounded(mean, 4)},
+                  {"foreseen", facts.foreseen},
+                  {"foreseen_agreement", nullptr}};
+  if (facts.foreseen > 0) {
+    physics["foreseen_agreement"] =
+        rounded(static_cast<double>(agreed) / static_cast<double>(facts.foreseen), 4);
+  }
+  return physics;
 }
 
 // Nearest rank.

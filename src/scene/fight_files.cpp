@@ -31,6 +31,7 @@ RunFacts facts_of(const SceneFile& scene, const FightRecord& record) {
   facts.memo_hits = record.counts.memo_hits;
   facts.memo_misses = record.counts.memo_misses;
   facts.impulse_steps = record.counts.impulse_steps;
+  facts.foreseen = record.counts.foreseen;
   facts.interrupted = record.interrupted;
   return facts;
 }

@@ -19,6 +19,7 @@ RunFacts facts() {
   facts.memo_hits = 40;
   facts.memo_misses = 12;
   facts.impulse_steps = 14;
+  facts.foreseen = 2;
   return facts;
 }
 
@@ -100,6 +101,7 @@ TEST(Report, AnEmptyFightHasZerosAndNoFaults) {
   const json report = report_json({}, {}, sample::library(), {});
   EXPECT_EQ(report["fighters"].size(), 0u);
   EXPECT_EQ(report["physics"]["mean_impulse_Ns"], 0.0);
+  EXPECT_TRUE(report["physics"]["foreseen_agreement"].is_null());
   EXPECT_EQ(report["quality"]["penetration_max_m"], 0.0);
 }
 
