@@ -4,22 +4,19 @@
 # SCENE is a file, or the name of one in assets/scenes; without it the default duel is fought. The
 # options are those of `ringcraft fight`. The result is in out/<scene's name>/.
 set -euo pipefail
-from=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")"
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+preset=${RINGCRAFT_PRESET:-release}
 
 scene=duel
 if [ $# -gt 0 ] && [ "${1#-}" = "$1" ]; then
   scene=$1
   shift
-  # A path is meant from where the caller stands.
-  case "$scene" in
-    /*) ;;
-    */* | *.toml) scene=$from/$scene ;;
-  esac
 fi
 
-preset=${RINGCRAFT_PRESET:-release}
-tools/setup.sh build
-cmake --preset "$preset" >&2
-cmake --build --preset "$preset" --target ringcraft --parallel "$(nproc)" >&2
-exec "build/$preset/ringcraft" fight "$scene" "$@"
+"$root/tools/setup.sh" build
+(
+  cd "$root"
+  cmake --preset "$preset" >&2
+  cmake --build --preset "$preset" --target ringcraft --parallel "$(nproc)" >&2
+)
+exec "$root/build/$preset/ringcraft" fight "$scene" "$@"
