@@ -136,6 +136,11 @@ class Reader {
     if (!end) return tl::unexpected(end.error());
     result.start = *start;
     result.end = *end;
+    if (action_window_is_wrong(result)) {
+      return fault(pointer + "/defense",
+                   "the ticks over which it protects are empty, or outside the action",
+                   "window = [from, to] with from < to <= length");
+    }
     if (auto keys = read_keys(table, pointer, result); !keys) return tl::unexpected(keys.error());
     if (auto steps = read_steps(table, pointer, result); !steps)
       return tl::unexpected(steps.error());
@@ -143,6 +148,11 @@ class Reader {
       return tl::unexpected(strikes.error());
     }
     return result;
+  }
+
+  static bool action_window_is_wrong(const SheetAction& sheet) {
+    const auto& defense = sheet.action.defense;
+    return defense && (defense->begin >= defense->end || defense->end > ticks(sheet.length));
   }
 
   void read_header(const json& table, SheetAction& result) {
@@ -250,10 +260,26 @@ class Reader {
         read.active_begin = number(strike["active"][0]);
         read.active_end = number(strike["active"][1]);
       }
+      const bool ordered = read.active_begin < read.active_end && read.active_end <= result.length;
+      if (!ordered) {
+        return fault(at, "the ticks at which it can hit are empty, or outside the action",
+                     "active = [from, to] with from < to <= length");
+      }
+      for (const SheetStrike& other : result.strikes) {
+        const bool apart = read.start >= other.contact || read.contact <= other.start;
+        if (other.strike.joint == read.strike.joint && !apart) {
+          return fault(at, "the same limb strikes twice at a time",
+                       "let the second strike start after the first one's contact");
+        }
+      }
       const bool straight = read.strike.kind == StrikeKind::straight;
       const bool foot =
           read.strike.joint == Joint::left_foot || read.strike.joint == Joint::right_foot;
       const bool lead = read.strike.joint == Joint::left_hand;
+      if (foot && !in_the_air(result, read)) {
+        return fault(at, "the foot stands on the ground while it should strike",
+                     "add a step of this foot with free = true that lasts from start to contact");
+      }
       read.profile = strike.value("profile", foot        ? "kick"
                                              : !straight ? "body"
                                              : lead      ? "jab"
@@ -261,6 +287,14 @@ class Reader {
       result.strikes.push_back(read);
     }
     return {};
+  }
+
+  static bool in_the_air(const SheetAction& action, const SheetStrike& strike) {
+    const Side side = strike.strike.joint == Joint::left_foot ? Side::left : Side::right;
+    return std::any_of(action.steps.begin(), action.steps.end(), [&](const SheetStep& step) {
+      return step.foot == side && step.free && step.lift <= strike.start &&
+             step.land.value_or(action.length + 1) > strike.contact;
+    });
   }
 
   const Document& document_;

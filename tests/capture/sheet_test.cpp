@@ -64,6 +64,14 @@ TEST(Sheet, MistakesOfThePersonWhoWritesAreErrorsWithAPlace) {
       {head + "strike = [{ kind = \"straight\", joint = \"leftHand\", zone = \"head\", start = "
               "0.1, contact = 0.3 }]\n",
        "no key gives lead_wrist"},
+      {head + "key = [{ t = 0.1, lead_wrist = [0, 1, 0] }, { t = 0.3, lead_wrist = [0, 1, 0] }]\n"
+              "strike = [{ kind = \"straight\", joint = \"leftHand\", zone = \"head\", start = "
+              "0.1, contact = 0.3, active = [0.3, 0.2] }]\n",
+       "are empty"},
+      {head + "strike = [{ kind = \"front_kick\", joint = \"leftFoot\", zone = \"body\", start = "
+              "0.1, contact = 0.3 }]\n",
+       "stands on the ground"},
+      {head + "defense = { kind = \"duck\", window = [0.2, 0.7] }\n", "protects"},
       {head + "length = 0.4\n", ""},
       {"name = \"a\"\nkind = \"transition\"\nlength = 1e9\n", ""},
   };
