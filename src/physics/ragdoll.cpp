@@ -38,9 +38,9 @@ Vec3 limited(Vec3 v, float most) {
   return length > most ? v * (most / length) : v;
 }
 
-// A joint's cone: its middle (child in parent) and its spans about the frame's y and z and the
-// twist about x, the limb's axis. The middle of the human range is the cone's middle, or a
-// symmetric cone cannot hold a range like 120/20 degrees.
+// A joint's cone, a little inside the ranges of limits.cpp: its middle (child in parent) and its
+// spans about the frame's y and z and the twist about x, the limb's axis. The middle of the human
+// range is the cone's middle, or a symmetric cone cannot hold a range like 120/20 degrees.
 struct Cone {
   Quat middle;
   Vec3 axis{};    // the limb's axis in the child's rest frame: the cone frame's x
@@ -55,13 +55,13 @@ Cone cone_of(Part part) {
   };
   switch (part) {
     case Part::abdomen:
-      return cone(flexed(22), kUp, kLeft, 53, 35, 25);
+      return cone(flexed(22), kUp, kLeft, 51, 33, 23);
     case Part::chest:
-      return cone(flexed(8), kUp, kLeft, 25, 22, 25);
+      return cone(flexed(8), kUp, kLeft, 23, 21, 21);
     case Part::neck:
-      return cone(flexed(0), kUp, kLeft, 40, 28, 45);
+      return cone(flexed(-3), kUp, kLeft, 35, 26, 40);
     case Part::head:
-      return cone(flexed(0), kUp, kLeft, 32, 22, 45);
+      return cone(flexed(-2), kUp, kLeft, 28, 18, 38);
     case Part::left_upper_arm:
       return cone(rotation_between(kLeft, {.55f, -.35f, .75f}), kLeft, kUp, 117, 117, 120);
     case Part::right_upper_arm:
@@ -71,9 +71,9 @@ Cone cone_of(Part part) {
     case Part::right_hand:
       return cone(glm::angleAxis(radians(10), kForward), -kLeft, kUp, 45, 80, 90);
     case Part::left_thigh:
-      return cone(glm::angleAxis(radians(7), kForward) * flexed(-45), -kUp, kLeft, 85, 70, 55);
+      return cone(glm::angleAxis(radians(14), kForward) * flexed(-48), -kUp, kLeft, 79, 66, 55);
     case Part::right_thigh:
-      return cone(glm::angleAxis(radians(-7), kForward) * flexed(-45), -kUp, kLeft, 85, 70, 55);
+      return cone(glm::angleAxis(radians(-14), kForward) * flexed(-48), -kUp, kLeft, 79, 66, 55);
     case Part::left_foot:
     case Part::right_foot:
       return cone(flexed(12), -kUp, kLeft, 48, 35, 35);
@@ -455,6 +455,16 @@ Pose Ragdoll::pose() const {
     turn[j] = above * pose.rotation[j];
   }
   pose.hips = motion(Part::pelvis).origin;
+  // The solver leaves gaps of millimetres in the joints, centimetres in a hard landing. Put in one
+  // chain they would add up from the pelvis outward: the chain lies where its parts are in the mean
+  // instead.
+  const WorldPose chain = world_pose(world_->body.skeleton, pose);
+  Vec3 off{};
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const float share = world_->body.parts[i].mass / world_->body.spec.mass;
+    off += share * (motion(part_at(i)).origin - chain.position[index(joint_of(part_at(i)))]);
+  }
+  pose.hips += off;
   return pose;
 }
 

@@ -16,6 +16,7 @@ constexpr float kMeetFrom = .12f, kMeetBy = .45f;  // s: the simulated motion me
 constexpr float kProtect = .10f;                   // s: from here on a falling body protects itself
 constexpr float kLimpTone = .03f;                  // of a knocked-out body; 0 looks like a sack
 constexpr float kLyingTone = .08f;
+constexpr float kLetDownTone = .3f;
 constexpr float kFade = .6f;               // s after the landing in which the muscles let go
 constexpr float kResting = .15f;           // m/s
 constexpr float kRestFor = .25f;           // s
@@ -94,6 +95,14 @@ Pose protective_pose(const Pose& now, float direction) {
   return pose;
 }
 
+// What a body lies down to once its trunk is on the ground: the legs come down, the arms stay.
+Pose lying_pose(const Pose& now) {
+  Pose pose = now;
+  bend(pose, 5, 2, 2);
+  set_legs(pose, 30, 55);
+  return pose;
+}
+
 bool trunk_down(const BodyModel& body, const Pose& pose) {
   const BodyCapsules c = capsules(body, world_pose(body.skeleton, pose));
   for (const Part p : {Part::pelvis, Part::abdomen, Part::chest}) {
@@ -109,20 +118,28 @@ float depth_below_ground(const BodyModel& body, const WorldPose& world, Side sid
   return -low;
 }
 
-// No sole below the ground, no joint beyond its range. A foot is lifted by its own leg; what that
-// cannot do, or the ranges forbid, the whole body does.
+// Lifts the end of a limb by `depth`, the limb bending the way it does.
+void lift(const BodyModel& body, const Limb& limb, float depth, Vec3 fallback, Pose& pose) {
+  const WorldPose world = world_pose(body.skeleton, pose);
+  solve_limb(body.skeleton, limb,
+             {world.position[index(limb.end)] + Vec3{0, depth, 0},
+              present_pole(world, limb, world.rotation[0] * fallback), 1.0f},
+             pose);
+}
+
+// No sole and no glove below the ground, no joint beyond its range. A limb is lifted by itself;
+// what that cannot do for a foot, or the ranges forbid, the whole body does.
 Pose mended(const BodyModel& body, const Pose& simulated) {
   constexpr float kLeast = .001f;  // m
   Pose pose = within_limits(body, simulated, kLimitTolerance);
   for (const Side side : {Side::left, Side::right}) {
     const WorldPose world = world_pose(body.skeleton, pose);
-    const float depth = depth_below_ground(body, world, side);
-    if (depth < kLeast) continue;
-    const Limb limb = leg(side);
-    solve_limb(body.skeleton, limb,
-               {world.position[index(limb.end)] + Vec3{0, depth, 0},
-                present_pole(world, limb, world.rotation[0] * kForward), 1.0f},
-               pose);
+    const float sunk = depth_below_ground(body, world, side);
+    if (sunk >= kLeast) lift(body, leg(side), sunk, kForward, pose);
+    const Capsule glove =
+        capsules(body, world)[index(side == Side::left ? Part::left_hand : Part::right_hand)];
+    const float hand = glove.radius - std::min(glove.a.y, glove.b.y);
+    if (hand >= kLeast) lift(body, arm(side), hand, -kForward, pose);
   }
   pose = within_limits(body, pose, kLimitTolerance);
   const WorldPose world = world_pose(body.skeleton, pose);
@@ -202,6 +219,9 @@ class Shown {
     if (landed_ < 0) return tone;
     const float gone = std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
+    // The legs are let down before they, too, let go.
+    const float legs = glm::mix(kLetDownTone, kLyingTone, smooth((now - landed_) / kFade - 1));
+    for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) tone[i] = legs;
     return tone;
   }
 
@@ -233,7 +253,10 @@ class Shown {
       step(2 * (tick - 1) + half);
     }
     const Pose pose = ragdoll_.pose();
-    if (landed_ < 0 && trunk_down(body_, pose)) landed_ = now;
+    if (landed_ < 0 && trunk_down(body_, pose)) {
+      landed_ = now;
+      if (!outcome_.knockout) protective_ = lying_pose(protective_);
+    }
     still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
     lifted.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
