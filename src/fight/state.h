@@ -73,8 +73,8 @@ Launch following(const MotionLibrary& library, const Launch& last, ActionId next
 // How long a fallen body lies before it gets up: the ragdoll is at rest by then.
 inline constexpr Tick kLyingTicks = 100;
 
-// The launch of a response at tick `start`, from where the cut action stands. A knockdown lasts until the
-// get-up begins.
+// The launch of a response at tick `start`, from where the cut action stands. A knockdown lasts
+// until the get-up begins.
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
                        Tick start, float scale);
 
