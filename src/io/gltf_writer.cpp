@@ -122,8 +122,8 @@ int GlbBuilder::add_data(const std::vector<Element>& elements, const Format& for
   view.byteOffset = data.size();
   view.byteLength = elements.size() * sizeof(Element);
   view.target = format.target;
-  data.resize(data.size() + view.byteLength);
-  std::memcpy(data.data() + view.byteOffset, elements.data(), view.byteLength);
+  const auto* first = reinterpret_cast<const unsigned char*>(elements.data());
+  data.insert(data.end(), first, first + view.byteLength);
   model_.bufferViews.push_back(view);
 
   tinygltf::Accessor accessor;
@@ -144,6 +144,7 @@ int GlbBuilder::add_data(const std::vector<Element>& elements, const Format& for
 int GlbBuilder::add_indices(const std::vector<std::uint32_t>& triangles, std::size_t vertices) {
   if (vertices > 65535) return add_data(triangles, kIndices);
   std::vector<std::uint16_t> narrow;
+  narrow.reserve(triangles.size());
   for (const std::uint32_t v : triangles) narrow.push_back(static_cast<std::uint16_t>(v));
   return add_data(narrow, kShortIndices);
 }
@@ -230,12 +231,11 @@ int GlbBuilder::add_skeleton(const Skeleton& skeleton, std::array<int, kJointCou
   for (std::size_t i = 0; i < kJointCount; ++i) {
     tinygltf::Node node;
     node.name = std::string(vrm_name(joint_at(i)));
-    const Vec3 offset = skeleton.offset[i];
+    const Vec3& offset = skeleton.offset[i];
     node.translation = {offset.x, offset.y, offset.z};
     nodes[i] = add_node(std::move(node));
-    if (kParent[i] >= 0) {
-      model_.nodes[nodes[static_cast<std::size_t>(kParent[i])]].children.push_back(nodes[i]);
-    }
+    const int parent = kParent[i];
+    if (parent >= 0) model_.nodes[nodes.at(parent)].children.push_back(nodes[i]);
   }
   const WorldPose rest = world_pose(skeleton, rest_pose(skeleton));
   std::vector<std::array<float, 16>> matrices;

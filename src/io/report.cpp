@@ -165,6 +165,7 @@ double percentile(std::vector<double> values, int percent) {
 json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
                  const MotionLibrary& library, const RunFacts& facts) {
   std::vector<BodyModel> bodies;
+  bodies.reserve(looks.size());
   for (const FighterLook& look : looks) bodies.push_back(look.body);
   const FightQuality quality = quality_of(timeline, bodies, library);
   return {{"version", facts.version},

@@ -74,7 +74,8 @@ std::vector<RingPart> make_ring(float half) {
   const std::array<Vec3, 4> corners = {
       {{half, 0, half}, {-half, 0, half}, {-half, 0, -half}, {half, 0, -half}}};
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 here = corners[i], next = corners[(i + 1) % 4];
+    const Vec3& here = corners[i];
+    const Vec3& next = corners[(i + 1) % 4];
     const Vec3 outside = here * (1.0f + 0.18f / half);
     add_tube(posts, outside - Vec3{0, 0.9f, 0}, outside + Vec3{0, 1.42f, 0}, kPostRadius, 16);
     RingPart& pad = i == 0 ? red_pad : i == 2 ? blue_pad : white_pads;

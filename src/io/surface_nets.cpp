@@ -50,7 +50,7 @@ Vec3 nearest_to_planes(std::span<const Vec3> points, std::span<const Vec3> norma
   glm::mat3 matrix(kHold);
   Vec3 right{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 n = normals[i];
+    const Vec3& n = normals[i];
     matrix += glm::outerProduct(n, n);
     right += n * glm::dot(n, points[i] - mean);
   }
