@@ -142,6 +142,7 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   if (victim.balance == 2) return;  // lies already
   if (!interrupts(met.contact.blocked, answer.impulse, answer.outcome)) return;
   victim.pending = answer.response;
+  victim.queue = {};
   victim.knocked_out = answer.outcome.knockout;
   victim.flight.launch.end = met.tick;
 }

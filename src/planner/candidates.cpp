@@ -79,8 +79,9 @@ struct Duel::Aspect {
   const InFlight* self = nullptr;
   const InFlight* opponent = nullptr;
   bool opponent_down = false;
-  bool late = false;  // the opponent's attack is too young to be answered by a particular defense
-  Tick now = 0;
+  bool late = false;    // the opponent's attack is too young to be answered by a particular defense
+  Tick now = 0;         // when the candidate starts: after its path
+  Tick lead = 0;        // length of the path
   Frame end;            // the own root
   Vec3 opponent_now{};  // world
   double rate_now = 0;  // F_loc
@@ -137,7 +138,7 @@ double Duel::Aspect::location(const ActionTable& table, const Frame& start, cons
   const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
   const float cosine = distance > 1e-4f ? (dx * facing_x + dz * facing_z) / distance : 1.0f;
   const double rate = location_rate(own->weights, distance, cosine, ropes(root));
-  const double length = seconds(table.length);
+  const double length = seconds(lead + table.length);
   return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
 }
 
@@ -168,7 +169,6 @@ void Duel::score_candidates(const Node& node, int who) {
   aspect.self = &self.flight;
   aspect.opponent = &other.flight;
   aspect.opponent_down = other.balance == 2 && !setup_->settings.hits_on_downed;
-  aspect.now = node.now;
   aspect.end = Frame(self.flight.root_at(node.now));
   aspect.opponent_now = other.flight.root_at(node.now).position();
   aspect.ring_half = setup_->settings.ring_half_m;
@@ -210,6 +210,8 @@ void Duel::score_candidates(const Node& node, int who) {
     const ActionTable& table = own.tables->at(next.to);
     const Action& action = *table.action;
     if (aspect.late && action.defense && action.defense->particular()) continue;
+    aspect.now = node.now + next.lead;
+    aspect.lead = next.lead;
     const Frame start = aspect.end * next.alignment;
     // The aim of an attack points its start at the opponent, that of anything else its end.
     Vec3 target = start.to_inner(aspect.opponent_now);
@@ -221,7 +223,7 @@ void Duel::score_candidates(const Node& node, int who) {
     const Scored one{thousandths(points), action.kind, &next};
     if (setup_->settings.prune.back_turned) {
       const Vec3 root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
-      const Vec3 then = other.flight.root_at(node.now + table.length).position() - root;
+      const Vec3 then = other.flight.root_at(aspect.now + table.length).position() - root;
       const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
       const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
       const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;

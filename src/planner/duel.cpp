@@ -74,7 +74,8 @@ int Duel::next_side(const Node& node) const {
 Actor Duel::actor(const Node& node) const {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return Actor::forced;
   const int next = next_side(node);
-  if (node.side[static_cast<std::size_t>(next)].flight.table->get_up.valid()) return Actor::forced;
+  const Duelist& one = node.side[static_cast<std::size_t>(next)];
+  if (one.queue[0].valid() || one.flight.table->get_up.valid()) return Actor::forced;
   return next == 0 ? Actor::maximizer : Actor::minimizer;
 }
 
@@ -87,6 +88,7 @@ std::uint64_t Duel::hash(const Node& node) const {
     mixer.add(launch.placement.x, launch.placement.z).add(launch.placement.yaw, launch.aim);
     mixer.add(one.balance * 4 + (one.last_at_tie ? 2 : 0) + (one.knocked_out ? 1 : 0),
               launch.spent);
+    for (const ActionId queued : one.queue) mixer.add(queued.value, 0);
   }
   return mixer.digest();
 }
@@ -120,25 +122,38 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
   }
 }
 
-void Duel::launch_chosen(Node& node, const Move& move) const {
-  Duelist& self = node.side[move.side];
-  const Duelist& opponent = node.side[static_cast<std::size_t>(1 - move.side)];
-  const SideSetup& own = side(move.side);
-  const Placement placement =
-      (Frame(self.flight.root_at(node.now)) * move.next->alignment).placement();
-  const Action& action = own.tables->library().action(move.action);
+// An action out of the own stance, by a direct edge, aimed at the opponent.
+void Duel::launch_aimed(Node& node, int who, ActionId action) const {
+  Duelist& self = node.side[static_cast<std::size_t>(who)];
+  const Duelist& opponent = node.side[static_cast<std::size_t>(1 - who)];
+  const SideSetup& own = side(who);
+  const NextAction* next = self.flight.table->find_next(action);
+  const Placement placement = (Frame(self.flight.root_at(node.now)) * next->alignment).placement();
+  const Action& what = own.tables->library().action(action);
   Launch launch;
-  launch.action = move.action;
+  launch.action = action;
   launch.start = node.now;
-  launch.end = node.now + action.length();
+  launch.end = node.now + what.length();
   launch.placement = placement;
-  launch.aim = aim_at(action, placement, opponent.flight.root_at(node.now).position(),
-                      own.tables->body().scale, action.attacks() ? kMostAttackAim : kMostAim);
+  launch.aim = aim_at(what, placement, opponent.flight.root_at(node.now).position(),
+                      own.tables->body().scale, what.attacks() ? kMostAttackAim : kMostAim);
   self.flight = InFlight(*own.tables, launch);
   self.balance = 0;
-  // Launch costs count in full at the launch.
+}
+
+// Launch costs count in full at the choice; a path costs its duration on top.
+void Duel::launch_chosen(Node& node, const Move& move) const {
+  const SideSetup& own = side(move.side);
+  const std::vector<ActionId>& path = move.next->path;
+  launch_aimed(node, move.side, move.first());
+  auto& queue = node.side[move.side].queue;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
+  }
   const double factor = setup_->factors.rest[move.side];
   node.gained += static_cast<std::int32_t>(std::lround(factor * own.launch[move.action.at()]));
+  credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
+         false);
 }
 
 Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
@@ -151,7 +166,11 @@ Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
     self.last_at_tie = false;
     other.last_at_tie = true;
   }
-  if (move.forced) {
+  if (move.forced && self.queue[0].valid()) {
+    std::rotate(self.queue.begin(), self.queue.begin() + 1, self.queue.end());
+    self.queue.back() = {};
+    launch_aimed(child.node, move.side, move.action);
+  } else if (move.forced) {
     launch_forced(child.node, move.side, move.action);
   } else {
     launch_chosen(child.node, move);
@@ -169,6 +188,11 @@ void Duel::moves(const Node& node, std::vector<Move>& moves) {
     }
   }
   const auto next = static_cast<std::uint8_t>(next_side(node));
+  const ActionId queued = node.side[next].queue[0];
+  if (queued.valid()) {
+    moves.push_back({queued, next, true, nullptr});
+    return;
+  }
   const ActionId get_up = node.side[next].flight.table->get_up;
   if (get_up.valid()) {
     moves.push_back({get_up, next, true, nullptr});

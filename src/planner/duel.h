@@ -27,6 +27,7 @@ struct Duelist {
   std::int32_t balance = 0;  // as FighterState::balance
   bool last_at_tie = false;
   bool knocked_out = false;
+  std::array<ActionId, kLongestPath> queue{};  // the rest of a chosen path; invalid: none
   ActionId pending;  // the response that a forced node will launch; invalid otherwise
 };
 
@@ -42,6 +43,9 @@ struct DuelMove {
   std::uint8_t side = 0;
   bool forced = false;
   const NextAction* next = nullptr;  // null where forced
+  ActionId first() const {           // what is launched: the path's first action where there is one
+    return next != nullptr && !next->path.empty() ? next->path.front() : action;
+  }
 };
 
 // A fighter outside the duel.
@@ -125,6 +129,7 @@ class Duel {
   const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
   void credit(Node& node, int side, double points, bool event) const;
   void launch_forced(Node& node, int side, ActionId action) const;
+  void launch_aimed(Node& node, int side, ActionId action) const;
   void launch_chosen(Node& node, const Move& move) const;
 
   // From node.now to the next decision, hit or horizon; the fault is what the mover is blamed for.

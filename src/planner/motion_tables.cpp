@@ -165,18 +165,34 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     : library_(library), body_(body) {
   for (const Action& action : library.actions()) actions_.push_back(action_table(action, body_));
   for (std::size_t i = 0; i < actions_.size(); ++i) {
-    for (const Edge& edge : library.machine().edges(ActionId(i))) {
-      const Kind kind = library.action(edge.to).kind;
-      if (kind == Kind::response || kind == Kind::get_up) continue;
-      actions_[i].next.push_back({edge.to, Frame(scaled(edge.alignment.placement, body_.scale))});
-    }
     ActionTable& table = actions_[i];
     if (table.action->ends_lying != Lying::none && !library.get_ups().empty()) {
       table.get_up = choose_get_up(library, body_.skeleton, table.pose.back());
     }
-    std::sort(actions_[i].next.begin(), actions_[i].next.end(),
-              [](const NextAction& a, const NextAction& b) { return a.to < b.to; });
+    for (const ActionId to : library.launchable()) {
+      if (auto next = next_action(ActionId(i), to)) table.next.push_back(std::move(*next));
+    }
   }
+}
+
+// `to` after `from`, by the direct edge or else by the shortest path.
+std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) const {
+  const StateMachine& machine = library_.machine();
+  const Path* path = machine.path(from, to);
+  if (path == nullptr || path->via.size() > kLongestPath) return std::nullopt;
+  NextAction next;
+  next.to = to;
+  next.path = path->via;
+  next.lead = path->ticks;
+  const auto edge = [&](ActionId first, ActionId second) {
+    return Frame(scaled(machine.edge(first, second)->alignment.placement, body_.scale));
+  };
+  for (const ActionId over : path->via) {
+    next.alignment = next.alignment * edge(from, over) * actions_[over.at()].end;
+    from = over;
+  }
+  next.alignment = next.alignment * edge(from, to);
+  return next;
 }
 
 InFlight::InFlight(const MotionTables& tables, const Launch& of)

@@ -50,11 +50,14 @@ struct StrikeTable {
 
 Frame operator*(const Frame& outer, const Frame& inner);
 
-// An action that can follow, and how it is placed.
+// An action that can follow, directly or by a path of the state machine.
 struct NextAction {
   ActionId to;
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
+  std::vector<ActionId> path;  // actions played in full before it; empty for a direct edge
+  Tick lead = 0;               // their lengths
 };
+inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
 struct ActionTable {
   const Action* action = nullptr;
@@ -93,6 +96,8 @@ class MotionTables {
   const ActionTable& at(ActionId action) const { return actions_[action.at()]; }
 
  private:
+  std::optional<NextAction> next_action(ActionId from, ActionId to) const;
+
   const MotionLibrary& library_;
   BodyModel body_;
   std::vector<ActionTable> actions_;

@@ -232,7 +232,7 @@ Line Planner::Inside::line_of(const RootMove<Duel>& root, const DuelSetup& setup
   Line line;
   line.score = root.value;
   const auto add = [&](const DuelMove& move) {
-    const std::string& name = library.action(move.action).name;
+    const std::string& name = library.action(move.first()).name;
     line.actions.push_back(move.forced ? "*" + name : name);
     line.actors.push_back(setup.side[move.side].id.value);
   };

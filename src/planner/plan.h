@@ -39,8 +39,9 @@ struct PlanSettings {
 };
 
 struct Plan {
-  Launch launch;                // of the chosen action
-  DecisionRecord record;        // lines, nodes, what was pruned
+  Launch launch;               // of the chosen action
+  std::vector<ActionId> then;  // the rest of a path: to be launched in turn, without a new decision
+  DecisionRecord record;       // lines, nodes, what was pruned
   std::vector<Event> foreseen;  // hits with their responses along the principal variation
 };
 

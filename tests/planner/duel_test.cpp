@@ -456,6 +456,73 @@ TEST_F(DuelTest, FallIsFollowedByAForcedGetUp) {
   EXPECT_EQ(node.side[1].flight.launch.end, 10 + 180);
 }
 
+// Guard to a low stance, a blow from there, and back: no direct edge from the guard to the blow.
+MotionLibrary with_low_stance() {
+  synthetic::Builder builder;
+  synthetic::Key guard, low, held, rise;
+  guard.tick = 36;
+  builder.add("idle", Kind::idle, {synthetic::Key{}, guard});
+  low.hips_height = 0.55f;
+  low.lean = 0.5f;
+  low.left_hand.y = low.right_hand.y = 0.9f;
+  held = low;
+  low.tick = 30;
+  builder.add("sink", Kind::transition, {synthetic::Key{}, low});
+  synthetic::Key out = held, back = held;
+  out.right_hand = {0, 0.9f, 0.9f};
+  out.tick = 24;
+  back.tick = 50;
+  Action& blow = builder.add("low_cross", Kind::attack, {held, out, back});
+  blow.strikes = {{StrikeKind::straight, Joint::right_hand, TargetZone::body, 16, 27}};
+  rise.tick = 30;
+  builder.add("rise", Kind::transition, {held, rise});
+  synthetic::add_responses(builder);
+  return {"low", builder.take()};
+}
+
+TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
+  const MotionLibrary low = with_low_stance();
+  ASSERT_TRUE(low.dropped().empty());
+  const MotionTables low_tables(low, make_body({}));
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  for (SideSetup& side : setup_.side) {
+    side.tables = &low_tables;
+    side.launch.assign(low.actions().size(), 0);
+    side.clean_damage.assign(low.actions().size(), {5000});
+  }
+  FightState state = facing(3);
+  for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
+  Duel game(setup_, 400);
+  const DuelNode root = Duel::root(setup_, state);
+  std::vector<DuelMove> moves;
+  game.moves(root, moves);
+  const ActionId sink = low.find("sink"), blow = low.find("low_cross");
+  const auto found = std::find_if(moves.begin(), moves.end(),
+                                  [&](const DuelMove& move) { return move.action == blow; });
+  ASSERT_NE(found, moves.end());
+  EXPECT_EQ(found->next->path, std::vector<ActionId>{sink});
+  EXPECT_EQ(found->first(), sink);
+  DuelNode node = game.apply(root, *found).node;
+  node = game.apply(node, {low.find("idle"), 1, false,
+                           low_tables.at(low.find("idle")).find_next(low.find("idle"))})
+             .node;
+  ASSERT_EQ(node.now, 30);
+  EXPECT_EQ(game.actor(node), Actor::forced);
+  game.moves(node, moves);
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_EQ(moves[0].action, blow);
+  node = game.apply(node, moves[0]).node;
+  EXPECT_EQ(node.side[0].flight.launch.end, 30 + 50);
+  EXPECT_FALSE(node.side[0].queue[0].valid());
+  // Where the path's frames say it starts, there the tree starts it (but for the aim).
+  const Placement planned =
+      (Frame(root.side[0].flight.root_at(0)) * found->next->alignment).placement();
+  EXPECT_LT(glm::distance(planned.position(), node.side[0].flight.launch.placement.position()),
+            0.05f);
+}
+
 TEST_F(DuelTest, HashSeesWhatTheFutureDependsOn) {
   const DuelNode root = Duel::root(setup_, random_state(3));
   Duel game(setup_, 240);
