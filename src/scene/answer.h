@@ -1,6 +1,7 @@
 #pragma once
-// The answer to a hit as motion: the forced launch that physics chose, and the simulated poses that are
-// shown before its clip takes over (Zordan 2005: a second, active simulation aimed at the clip).
+// The answer to a hit as motion: the forced launch that physics chose, and the simulated poses that
+// are shown before its clip takes over (Zordan 2005: a second, active simulation aimed at the
+// clip).
 
 #include <vector>
 
@@ -19,7 +20,7 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
                  const ImpactInput& input, const ImpactOutcome& outcome);
 
 // The get-up that starts nearest to the pose that is shown, placed on it.
-Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen, Tick now,
-                   const Pose& shown);
+Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen,
+                   Tick now, const Pose& shown);
 
 }  // namespace ringcraft

@@ -20,7 +20,8 @@ double microseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
 }
 
-constexpr Tick kOpeningTicks = 24;  // in guard before the first decision
+constexpr Tick kOpeningTicks = 24;        // in guard before the first decision
+constexpr float kIdleTurn = radians(15);  // toward the opponent, in one idle
 constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
 constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
 constexpr float kMostPush = 0.012f;      // m a tick and fighter
@@ -157,6 +158,28 @@ void Bout::commit_get_up(FighterId id) {
   event.who = id;
   event.action = library_.action(launch.action).name;
   record_.timeline.events.push_back(std::move(event));
+}
+
+bool Bout::has_won(FighterId id) const {
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    if (enemies(id, FighterId(i)) && !is_out(FighterId(i))) return false;
+  }
+  return true;
+}
+
+// The idle that follows best, toward the opponent.
+void Bout::commit_idle(FighterId id) {
+  const Launch& last = fighter(id).launch;
+  ActionId idle = library_.machine().edges(last.action).front().to;
+  for (const Edge& edge : library_.machine().edges(last.action)) {
+    if (library_.action(edge.to).kind != Kind::idle) continue;
+    idle = edge.to;
+    break;
+  }
+  const Vec3 opponent = ground_position(fighter(id).opponent);
+  fighter(id).balance = 0;
+  begin(id,
+        following(library_, last, idle, state_.now, opponent, stage_.body(id).scale, kIdleTurn));
 }
 
 void Bout::commit_rest(FighterId id) {

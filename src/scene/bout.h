@@ -20,10 +20,12 @@ class Bout {
   bool over() const;
   bool must_get_up(FighterId fighter) const;  // fell, and its time on the ground is over
   bool is_out(FighterId fighter) const;       // knocked out: lies until the end
+  bool has_won(FighterId fighter) const;      // nobody is left to fight
 
   Plan decide(FighterId fighter);
   void commit(FighterId fighter, const Plan& plan);
   void commit_get_up(FighterId fighter);
+  void commit_idle(FighterId fighter);
   void commit_rest(FighterId fighter);
   void advance_one_tick();
   FightRecord record();

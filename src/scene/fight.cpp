@@ -22,6 +22,8 @@ FightRecord simulate_fight(const MotionLibrary& library, const SceneFile& scene,
       bout.commit_get_up(fighter);
     } else if (bout.is_out(fighter)) {
       bout.commit_rest(fighter);
+    } else if (bout.has_won(fighter)) {
+      bout.commit_idle(fighter);
     } else {
       bout.commit(fighter, bout.decide(fighter));  // temporal expansion and search
     }

@@ -1,8 +1,8 @@
 #include "scene/keep_out.h"
 
 #include <algorithm>
-#include <array>
 
+#include "base/ticks.h"
 #include "motion/ik.h"
 #include "physics/penetration.h"
 
@@ -10,65 +10,94 @@ namespace ringcraft {
 
 namespace {
 
-// How far, and which way, the part must move to clear the other body. Zero where it touches
-// nothing.
-Vec3 way_out(const Capsule& part, const BodyCapsules& other, Vec3 away) {
+struct Mover {
+  Limb limb;
+  std::array<Part, 2> parts;  // end first
+};
+constexpr std::array<Mover, 4> kMovers = {{
+    {arm(Side::left), {Part::left_hand, Part::left_forearm}},
+    {arm(Side::right), {Part::right_hand, Part::right_forearm}},
+    {leg(Side::left), {Part::left_foot, Part::left_shin}},
+    {leg(Side::right), {Part::right_foot, Part::right_shin}},
+}};
+
+Vec3 shortened(Vec3 way, float most) {
+  const float length = glm::length(way);
+  return length > most ? way * (most / length) : way;
+}
+
+// How far, and which way, the part must move to clear the bodies. Zero where it touches nothing.
+Vec3 way_out(const Capsule& part, std::span<const BodyCapsules> others, Vec3 away) {
   Vec3 way{};
   for (int pass = 0; pass < 2; ++pass) {  // the way out of one part may lead into its neighbour
     float deepest = 0;
     Vec3 step{};
-    for (const Capsule& obstacle : other) {
-      const SegmentDistance nearest =
-          segment_distance(part.a + way, part.b + way, obstacle.a, obstacle.b);
-      const float depth = part.radius + obstacle.radius - nearest.distance;
-      if (depth <= deepest) continue;
-      deepest = depth;
-      step = normalized_or(nearest.on_first - nearest.on_second, away) * depth;
+    for (const BodyCapsules& other : others) {
+      for (const Capsule& obstacle : other) {
+        const SegmentDistance nearest =
+            segment_distance(part.a + way, part.b + way, obstacle.a, obstacle.b);
+        const float depth = part.radius + obstacle.radius - nearest.distance;
+        if (depth <= deepest) continue;
+        deepest = depth;
+        step = normalized_or(nearest.on_first - nearest.on_second, away) * depth;
+      }
     }
     if (deepest <= 0) break;
     way += step;
   }
-  const float length = glm::length(way);
-  return length > kMostKeptOut ? way * (kMostKeptOut / length) : way;
+  return shortened(way, kMostKeptOut);
 }
 
-void move_end(const BodyModel& body, const Limb& limb, Vec3 way, Vec3 fallback_pole, Pose& pose) {
+void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
+  const Limb& limb = kMovers[mover].limb;
   const WorldPose world = world_pose(body.skeleton, pose);
+  const Vec3 fallback = mover < 2 ? -kUp : world.rotation[0] * kForward;
   LimbTarget target;
   target.position = world.position[index(limb.end)] + way;
-  target.pole = present_pole(world, limb, fallback_pole);
+  target.pole = present_pole(world, limb, fallback);
   target.soft_share = 1.0f;
   solve_limb(body.skeleton, limb, target, pose);
 }
 
 }  // namespace
 
-Pose kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
-              const BodyCapsules& other) {
-  Pose result = pose;
-  struct Mover {
-    Limb limb;
-    std::array<Part, 2> parts;  // end first
-    bool moves;
-    Vec3 pole;
-  };
-  const WorldPose world = world_pose(body.skeleton, pose);
-  const Vec3 forward = world.rotation[index(Joint::hips)] * kForward;
-  const std::array<Mover, 4> movers = {{
-      {arm(Side::left), {Part::left_hand, Part::left_forearm}, true, -kUp},
-      {arm(Side::right), {Part::right_hand, Part::right_forearm}, true, -kUp},
-      {leg(Side::left), {Part::left_foot, Part::left_shin}, !held.left, forward},
-      {leg(Side::right), {Part::right_foot, Part::right_shin}, !held.right, forward},
-  }};
-  for (const Mover& mover : movers) {
-    if (!mover.moves) continue;
-    for (const Part part : mover.parts) {
-      const BodyCapsules own = capsules(body, world_pose(body.skeleton, result));
-      const Vec3 way = way_out(own[index(part)], other, -forward);
-      if (way != Vec3{}) move_end(body, mover.limb, way, mover.pole, result);
+LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
+                     std::span<const BodyCapsules> others) {
+  LimbOffsets offsets{};
+  if (others.empty()) return offsets;
+  const Vec3 away = pose.rotation[0] * -kForward;
+  for (std::size_t m = 0; m < kMovers.size(); ++m) {
+    if ((m == 2 && held.left) || (m == 3 && held.right)) continue;
+    Pose moved = pose;
+    for (const Part part : kMovers[m].parts) {
+      const BodyCapsules own = capsules(body, world_pose(body.skeleton, moved));
+      const Vec3 way = way_out(own[index(part)], others, away);
+      if (way == Vec3{}) continue;
+      offsets[m] = shortened(offsets[m] + way, kMostKeptOut);
+      moved = pose;
+      move_end(body, m, offsets[m], moved);
     }
   }
-  return result;
+  return offsets;
+}
+
+LimbOffsets approached(const LimbOffsets& now, const LimbOffsets& wanted) {
+  LimbOffsets next;
+  for (std::size_t m = 0; m < now.size(); ++m) {
+    const Vec3 change = wanted[m] - now[m];
+    const bool stopped = glm::dot(change, now[m]) >= 0 && glm::dot(wanted[m], now[m]) >= 0 &&
+                         glm::length(wanted[m]) > glm::length(now[m]);
+    next[m] = stopped ? wanted[m] : now[m] + shortened(change, kComingFree * kTickSeconds);
+  }
+  return next;
+}
+
+Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets) {
+  Pose moved = pose;
+  for (std::size_t m = 0; m < offsets.size(); ++m) {
+    if (offsets[m] != Vec3{}) move_end(body, m, offsets[m], moved);
+  }
+  return moved;
 }
 
 }  // namespace ringcraft

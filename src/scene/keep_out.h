@@ -1,15 +1,30 @@
 #pragma once
-// Arms and free legs stay out of the other body: what is shown never sinks into what it struck.
+// Arms and free legs stay out of the other bodies: what is shown never sinks into what it struck.
+
+#include <array>
+#include <span>
 
 #include "motion/clip.h"
 #include "physics/body.h"
 
 namespace ringcraft {
 
-// `pose` (world) with hands, forearms and feet that are not `held` moved out of `other`, along the
-// shortest way and by at most kMostKeptOut, by two-link IK. Unchanged where nothing penetrates.
+// How far the ends of left arm, right arm, left leg and right leg are held off their motion, m.
+using LimbOffsets = std::array<Vec3, 4>;
+
 inline constexpr float kMostKeptOut = 0.16f;  // m
-Pose kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
-              const BodyCapsules& other);
+
+// The offsets that move hands, forearms, and feet and shins that are not `held` out of the
+// `others`, each by at most kMostKeptOut. Zero where nothing penetrates.
+LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
+                     std::span<const BodyCapsules> others);
+
+// One tick from `now` toward `wanted`: a limb that is stopped is stopped at once, but it comes
+// free, or is turned aside, no faster than kComingFree.
+inline constexpr float kComingFree = 1.5f;  // m/s
+LimbOffsets approached(const LimbOffsets& now, const LimbOffsets& wanted);
+
+// `pose` with the ends of its limbs moved by the offsets, by two-link IK.
+Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets);
 
 }  // namespace ringcraft

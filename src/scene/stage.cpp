@@ -34,7 +34,7 @@ Pose limited(const BodyModel& body, const Pose& pose, FootContacts held) {
 Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies) : library_(library) {
   for (BodyModel& body : bodies) {
     Playback playback(body.skeleton);
-    actors_.push_back({std::move(body), std::move(playback), {}, {}, 0, false, {}, {}});
+    actors_.push_back({std::move(body), std::move(playback), {}, {}, 0, false, {}, {}, {}, {}});
   }
 }
 
@@ -57,6 +57,7 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
     last.end = std::min(last.end, launch.start);
   }
   actor.track.segments.push_back({launch, action.name, action.kind});
+  actor.kept_out = {};  // what is shown is where the new motion starts from
   if (actor.simulated.empty()) {
     actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
   }
@@ -79,30 +80,37 @@ void Stage::show(Tick tick) {
     } else {
       const Pose pose = clip_pose(actor, tick);
       if (actor.was_simulated && actor.playback.started()) {
+        actor.kept_out = {};
         actor.playback.stitch(pose, clip_pose(actor, tick + 1));
       }
       actor.was_simulated = false;
       actor.playback.next(pose, clip.contacts_at(tick - actor.launch.start));
     }
+    actor.unhindered = actor.playback.shown();
     actor.swept.before = actor.swept.after;
-    actor.swept.after =
-        capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
+    amend(actor, actor.kept_out);
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }
 }
 
+void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
+  actor.kept_out = offsets;
+  actor.playback.amend(limited(actor.body, with_offsets(actor.body, actor.unhindered, offsets),
+                               actor.playback.held()));
+  actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
+}
+
 void Stage::keep_out_and_record() {
   for (Actor& actor : actors_) {
-    Pose pose = actor.playback.shown();
+    std::vector<BodyCapsules> near;
     for (const Actor& other : actors_) {
-      const float apart = glm::distance(pose.hips, other.playback.shown().hips);
-      if (&other == &actor || apart > kArmsReach * actor.body.scale) continue;
-      pose = kept_out(actor.body, pose, actor.playback.held(), other.swept.after);
+      const float apart = glm::distance(actor.unhindered.hips, other.playback.shown().hips);
+      if (&other != &actor && apart < kArmsReach * actor.body.scale)
+        near.push_back(other.swept.after);
     }
-    pose = limited(actor.body, pose, actor.playback.held());
-    actor.playback.amend(pose);
-    actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, pose));
-    actor.track.frames.push_back(pose);
+    const LimbOffsets wanted = ways_out(actor.body, actor.unhindered, actor.playback.held(), near);
+    amend(actor, approached(actor.kept_out, wanted));
+    actor.track.frames.push_back(actor.playback.shown());
     actor.track.contacts.push_back(actor.playback.held());
   }
 }
@@ -125,8 +133,9 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
     if (at < actor.simulated.size()) {
       poses.push_back(actor.simulated[at]);
     } else {
-      poses.push_back(
-          ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start)));
+      const Pose& pose =
+          ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start));
+      poses.push_back(with_offsets(actor.body, pose, actor.kept_out));
     }
   }
   return poses;

@@ -6,6 +6,7 @@
 #include "fight/timeline.h"
 #include "motion/playback.h"
 #include "physics/contact.h"
+#include "scene/keep_out.h"
 
 namespace ringcraft {
 
@@ -53,10 +54,13 @@ class Stage {
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;
+    Pose unhindered;         // this tick's pose as if nothing stood in its way
+    LimbOffsets kept_out{};  // what keeps its limbs out of the other bodies
     SweptBody swept{};
     FighterTrack track;
   };
 
+  static void amend(Actor& actor, const LimbOffsets& offsets);
   Pose clip_pose(const Actor& actor, Tick tick) const;
 
   const MotionLibrary& library_;
