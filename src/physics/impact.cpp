@@ -65,6 +65,17 @@ Vec3 carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, cons
   return own - steadied(base, own);
 }
 
+std::array<Vec3, 3> moved(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll) {
+  const WorldPose is = world_pose(body.skeleton, ragdoll.pose()),
+                  was_to_be = world_pose(body.skeleton, frame.continued(kImpulseStepTicks));
+  std::array<Vec3, 3> out;
+  std::size_t n = 0;
+  for (const Joint joint : {Joint::head, Joint::upper_chest, Joint::hips}) {
+    out[n++] = is.position[index(joint)] - was_to_be.position[index(joint)];
+  }
+  return out;
+}
+
 }  // namespace
 
 ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
@@ -91,6 +102,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
   }
 
   outcome.com_velocity = ragdoll.center_of_mass_velocity();
+  outcome.moved = moved(body, frame, ragdoll);
   const Base& carrying =
       moves_feet(frame.blow().part) ? standing_base(body, ragdoll, planted) : base;
   const Vec3 xi = extrapolated(ragdoll.center_of_mass(), outcome.com_velocity, rate);

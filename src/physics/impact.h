@@ -1,6 +1,7 @@
 #pragma once
 // The hit: strike -> impulse -> ragdoll impulse step in Bullet -> response. Design section 6.
 
+#include <array>
 #include <span>
 
 #include "physics/contact.h"
@@ -57,6 +58,9 @@ struct ImpactOutcome {
   float head_spin = 0;    // change of the head's angular velocity, rad/s
   float margin = 0;  // m: the extrapolated centre of mass beyond the base of support (< 0 inside)
   Vec3 com_velocity{};  // after the impulse step, m/s
+  // How far head, chest and hips are from where the action would have them after the impulse step,
+  // world, m: the motion that a response is to continue.
+  std::array<Vec3, 3> moved{};
   bool operator==(const ImpactOutcome&) const = default;
 };
 

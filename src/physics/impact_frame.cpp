@@ -99,9 +99,12 @@ ImpactOutcome ImpactFrame::out(ImpactOutcome outcome) const {
   if (mirrored_) {
     outcome.direction = -outcome.direction;
     outcome.com_velocity = flipped(outcome.com_velocity);
+    for (Vec3& m : outcome.moved) m = flipped(m);
   }
   outcome.direction = wrapped_angle(outcome.direction + placement_.yaw);
-  outcome.com_velocity = yaw_rotation(placement_.yaw) * outcome.com_velocity;
+  const Quat turned = yaw_rotation(placement_.yaw);
+  outcome.com_velocity = turned * outcome.com_velocity;
+  for (Vec3& m : outcome.moved) m = turned * m;
   return outcome;
 }
 

@@ -1,29 +1,50 @@
 #include "physics/response.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace ringcraft {
 namespace {
 
-// How ill an action's tag answers the outcome; smaller is better, compared in order.
-struct Misfit {
-  int kind = 0;         // 0 same kind
-  int steps = 0;        // difference in steps
-  float direction = 0;  // rad between the directions
+constexpr float kMostUnlike = .2f;     // m
+constexpr float kMotionWeight = 3.0f;  // steps per metre that the bends of two motions differ by
+constexpr Tick kWindow = 14;           // of a response clip, against the 100 ms of the impulse step
 
+// How far head, chest and hips of a clip go in its first 100 ms and a bit, action space.
+std::array<Vec3, 3> moved(const Skeleton& skeleton, const Clip& clip) {
+  const WorldPose from = world_pose(skeleton, clip.at(0)),
+                  to = world_pose(skeleton, clip.at(kWindow));
+  std::array<Vec3, 3> out;
+  std::size_t n = 0;
+  for (const Joint joint : {Joint::head, Joint::upper_chest, Joint::hips}) {
+    out[n++] = to.position[index(joint)] - from.position[index(joint)];
+  }
+  return out;
+}
+
+// How differently head and chest move against the hips (how the body bends), m, at most
+// kMostUnlike.
+float unlike(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+  float sum = 0;
+  for (std::size_t i = 0; i < 2; ++i) sum += glm::distance(a[i] - a[2], b[i] - b[2]);
+  return std::min(sum, kMostUnlike);
+}
+
+// How ill an action answers the outcome, smaller is better: first the kind, then steps, direction
+// and motion together. Sixty degrees weigh as much as a step: a step more in the right direction
+// beats the right count in the opposite one (a wrong direction is seen sooner than a wrong
+// strength, V4).
+struct Misfit {
+  int kind = 0;
+  float rest = 0;
   bool better_than(const Misfit& other) const {
-    if (kind != other.kind) return kind < other.kind;
-    // Half a step's worth of direction: a step more in the right direction beats the right count in
-    // the opposite one (a wrong direction is seen sooner than a wrong strength, validation V4).
-    const float a = static_cast<float>(steps) + direction / radians(60);
-    const float b = static_cast<float>(other.steps) + other.direction / radians(60);
-    return a < b;
+    return kind != other.kind ? kind < other.kind : rest < other.rest;
   }
 };
 
-// Order of severity; an outcome without an action of its kind takes the next in this order.
+// Order of severity; an outcome without an action of its kind takes the nearest in this order.
 int severity(ResponseKind kind) {
   return static_cast<int>(kind);
 }
@@ -31,9 +52,10 @@ int severity(ResponseKind kind) {
 Misfit misfit(const Response& tag, const ImpactOutcome& outcome, float direction) {
   Misfit m;
   m.kind = std::abs(severity(tag.kind) - severity(outcome.response));
-  if (outcome.response == ResponseKind::recovery_steps)
-    m.steps = std::abs(tag.steps - outcome.steps);
-  m.direction = std::abs(wrapped_angle(tag.direction - direction));
+  if (outcome.response == ResponseKind::recovery_steps) {
+    m.rest += static_cast<float>(std::abs(tag.steps - outcome.steps));
+  }
+  m.rest += std::abs(wrapped_angle(tag.direction - direction)) / radians(60);
   return m;
 }
 
@@ -60,12 +82,16 @@ float yaw_of_body(const Skeleton& skeleton, const Pose& pose) {
 
 ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing) {
   const float direction = wrapped_angle(outcome.direction - facing);
+  std::array<Vec3, 3> simulated = outcome.moved;
+  for (Vec3& m : simulated) m = yaw_rotation(-facing) * m;
+  const bool bends = outcome.moved != std::array<Vec3, 3>{};  // an outcome made by hand may not say
   ActionId best;
   Misfit least;
   for (const ActionId id : library.responses()) {
     const Action& action = library.action(id);
     if (!action.response) continue;
-    const Misfit m = misfit(*action.response, outcome, direction);
+    Misfit m = misfit(*action.response, outcome, direction);
+    if (bends) m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip));
     if (!best.valid() || m.better_than(least)) {  // equal: the lower index stays
       best = id;
       least = m;

@@ -6,8 +6,9 @@
 
 namespace ringcraft {
 
-// The response action of the outcome's kind and steps whose direction is nearest to the outcome's,
-// seen from a body that faces `facing` (world yaw). The library must hold one of each kind.
+// The response action of the outcome's kind that fits best by steps, by direction (seen from a body
+// that faces `facing`, world yaw) and by the motion of head, chest and hips that it continues.
+// Equal ones: the lower index. The library must hold one response at least.
 ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing);
 
 // The get-up that starts from the lying pose nearest to `pose` (joint positions about the root).

@@ -43,6 +43,30 @@ TEST_F(ResponseChoice, AWrongDirectionIsWorseThanAWrongCount) {  // validation V
   EXPECT_EQ(chosen(ResponseKind::recovery_steps, 2, kPi / 2), "steps_left_1");
 }
 
+TEST_F(ResponseChoice, OfLikeResponsesTheOneThatBendsAsTheBodyDoesIsTaken) {
+  // The same tag twice: one throws the trunk back, one bends it forward.
+  synthetic::Builder builder;
+  synthetic::Key idle;
+  idle.tick = 36;
+  builder.add("idle", Kind::idle, {synthetic::Key{}, idle});
+  synthetic::Key fore, back, end;
+  fore.tick = back.tick = 20;
+  fore.lean = .6f;
+  back.lean = -.4f;
+  end.tick = 50;
+  const Response tag{ResponseKind::absorb, 0, kPi};
+  builder.add("thrown_back", Kind::response, {synthetic::Key{}, back, end}).response = tag;
+  builder.add("bent_fore", Kind::response, {synthetic::Key{}, fore, end}).response = tag;
+  const MotionLibrary two("two", builder.take());
+  ASSERT_EQ(two.responses().size(), 2u);
+  ImpactOutcome outcome;
+  outcome.direction = kPi;
+  outcome.moved = {Vec3{0, 0, -.10f}, Vec3{0, 0, -.03f}, Vec3{}};  // a blow to the head
+  EXPECT_EQ(two.action(choose_response(two, outcome, 0)).name, "thrown_back");
+  outcome.moved = {Vec3{}, Vec3{0, 0, -.06f}, Vec3{0, 0, -.08f}};  // a blow to the belly
+  EXPECT_EQ(two.action(choose_response(two, outcome, 0)).name, "bent_fore");
+}
+
 TEST_F(ResponseChoice, AnImpactOnALibraryPoseLeadsToAResponseOfItsKind) {
   const BodyModel body = make_body({"b", kCanonicalHeight, 75, Sex::male});
   const Pose pose = library.action(library.find("idle")).clip.at(0);
