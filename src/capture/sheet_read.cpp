@@ -136,7 +136,7 @@ class Reader {
     if (!end) return tl::unexpected(end.error());
     result.start = *start;
     result.end = *end;
-    if (action_window_is_wrong(result)) {
+    if (defense_window_is_wrong(result)) {
       return fault(pointer + "/defense",
                    "the ticks over which it protects are empty, or outside the action",
                    "window = [from, to] with from < to <= length");
@@ -150,7 +150,7 @@ class Reader {
     return result;
   }
 
-  static bool action_window_is_wrong(const SheetAction& sheet) {
+  static bool defense_window_is_wrong(const SheetAction& sheet) {
     const auto& defense = sheet.action.defense;
     return defense && (defense->begin >= defense->end || defense->end > ticks(sheet.length));
   }

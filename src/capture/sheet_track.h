@@ -15,9 +15,7 @@ class Track {
   void add(float t, Vec3 value);
   Vec3 at(float t) const;
   bool empty() const { return t_.empty(); }
-  std::size_t size() const { return t_.size(); }
   float last_time() const { return t_.back(); }
-  Vec3 last() const { return v_.back(); }
 
  private:
   std::vector<float> t_;

@@ -299,6 +299,23 @@ TEST(SheetMotion, TheHandsOfAGuardAreNeverStill) {
   EXPECT_LT(static_cast<double>(still) / static_cast<double>(2 * world.size()), 0.05);
 }
 
+TEST(SheetMotion, DefensesTakeTheHeadOffTheLine) {
+  // Metres against the guard, over the whole window: a head's radius and a fist's make 0.17.
+  const std::map<std::string, Vec3> least = {{"slip_left", {0.17f, 0, 0}},
+                                             {"slip_right", {-0.17f, 0, 0}},
+                                             {"duck", {0, -0.25f, 0}},
+                                             {"sway_back", {0, 0, -0.22f}}};
+  for (const auto& [name, way] : least) {
+    const Action& action = library().at(name);
+    const std::vector<WorldPose> world = worlds(action);
+    for (Tick t = action.defense->begin; t <= action.defense->end; ++t) {
+      const Vec3 moved = position(world[static_cast<std::size_t>(t)], Joint::head) -
+                         position(world[0], Joint::head);
+      EXPECT_GT(glm::dot(moved, glm::normalize(way)), glm::length(way)) << name << " at tick " << t;
+    }
+  }
+}
+
 TEST(SheetMotion, ATurnsRootTurnsWithIt) {
   EXPECT_NEAR(degrees(library().at("turn_left_90").clip.root.back().yaw), 90, 0.5f);
   EXPECT_NEAR(degrees(library().at("turn_right_90").clip.root.back().yaw), -90, 0.5f);
