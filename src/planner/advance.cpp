@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/response.h"
 #include "planner/duel.h"
 
 namespace ringcraft {
@@ -106,14 +107,20 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   blow.contact = met.contact;
   blow.attacker_yaw = flight.frame_at(met.tick).yaw - victim.flight.frame_at(met.tick).yaw;
   event.answer = setup_->memo->answer(blow);
-  const ImpactAnswer& answer = event.answer;
+  ImpactAnswer& answer = event.answer;
+  victim.health -= answer.damage;
+  if (victim.health <= 0 && victim.balance != 2) {  // nobody stands without health
+    answer.outcome.response = ResponseKind::knockdown;
+    answer.outcome.knockout = true;
+    answer.response = choose_response(side(window.victim).tables->library(), answer.outcome,
+                                      victim.flight.table->root_at(blow.struck_age).yaw);
+  }
   if (events_ != nullptr) events_->push_back(event);
 
   const bool deliberate = victim.flight.table->action->defense.has_value();
   const bool seen =
       move.side == window.victim && victim.flight.launch.start - flight.launch.start >=
                                         ticks(side(window.victim).style->late_sight_s);
-  victim.health -= answer.damage;
   const bool down = answer.outcome.response == ResponseKind::knockdown && victim.balance != 2;
   if (window.attacker < 2) {
     const SideSetup& attacker = side(window.attacker);
@@ -140,7 +147,10 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     fault += kHitFault + answer.damage / 10;
   }
   if (victim.balance == 2) return;  // lies already
-  if (!interrupts(met.contact.blocked, answer.impulse, answer.outcome)) return;
+  if (!answer.outcome.knockout &&
+      !interrupts(met.contact.blocked, answer.impulse, answer.outcome)) {
+    return;
+  }
   victim.pending = answer.response;
   victim.queue = {};
   victim.knocked_out = answer.outcome.knockout;

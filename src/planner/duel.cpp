@@ -88,6 +88,7 @@ std::uint64_t Duel::hash(const Node& node) const {
     mixer.add(launch.placement.x, launch.placement.z).add(launch.placement.yaw, launch.aim);
     mixer.add(one.balance * 4 + (one.last_at_tie ? 2 : 0) + (one.knocked_out ? 1 : 0),
               launch.spent);
+    mixer.add(one.health, 0);
     for (const ActionId queued : one.queue) mixer.add(queued.value, 0);
   }
   return mixer.digest();

@@ -235,6 +235,22 @@ TEST_F(DuelTest, HitCutsTheActionAndTheForcedNodeHasOneEdge) {
             root_at(library(), hit.side[1].flight.launch, hit.now, tables().body().scale));
 }
 
+TEST_F(DuelTest, NobodyStandsWithoutHealth) {
+  FightState state = facing(0.95f);
+  state.fighters[1].health = 100;
+  Duel game(setup_, 500);
+  const DuelNode root = Duel::root(setup_, state);
+  DuelNode node = struck(game, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+  EXPECT_TRUE(node.side[1].knocked_out);
+  std::vector<DuelMove> moves;
+  game.moves(node, moves);
+  ASSERT_TRUE(library().action(moves[0].action).response.has_value());
+  EXPECT_EQ(library().action(moves[0].action).response->kind, ResponseKind::knockdown);
+  node = game.apply(node, moves[0]).node;
+  EXPECT_EQ(node.side[1].flight.launch.end, kNever);
+  EXPECT_EQ(node.side[1].balance, 2);
+}
+
 TEST_F(DuelTest, HitIsCreditedInFullToTheAttackerBySide) {
   Style style;
   style.location_weight = style.facing_weight = style.ropes_weight = 0;
@@ -530,12 +546,14 @@ TEST_F(DuelTest, HashSeesWhatTheFutureDependsOn) {
   DuelNode gained = root;
   gained.gained = 12345;  // how the node was reached
   EXPECT_EQ(game.hash(gained), hash);
-  DuelNode tie = root, spent = root, moved = root, balance = root;
+  DuelNode tie = root, spent = root, moved = root, balance = root, tired = root;
+  tired.side[0].health -= 1;
   tie.side[1].last_at_tie = true;
   spent.side[0].flight.launch.spent = 1;
   moved.side[0].flight.launch.placement.x += 1e-4f;
   balance.side[1].balance = 1;
-  for (const DuelNode& other : {tie, spent, moved, balance}) EXPECT_NE(game.hash(other), hash);
+  for (const DuelNode& other : {tie, spent, moved, balance, tired})
+    EXPECT_NE(game.hash(other), hash);
 }
 
 }  // namespace
