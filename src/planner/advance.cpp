@@ -36,23 +36,8 @@ Tick next_multiple(Tick tick, Tick every) {
 
 }  // namespace
 
-// Ticks over which one strike may meet one victim before the next decision.
-struct Duel::Window {
-  int attacker = 0;  // side; 2 + index of a bystander
-  int victim = 0;
-  std::size_t strike = 0;
-  const InFlight* flight = nullptr;
-  Tick from = 0, to = 0;  // both included
-};
-
-struct Duel::Met {
-  Window window;
-  Contact contact;
-  Tick tick = 0;
-};
-
-std::vector<Duel::Window> Duel::windows(const Node& node, Tick end) const {
-  std::vector<Window> result;
+void Duel::find_windows(const Node& node, Tick end) {
+  windows_.clear();
   const auto add = [&](int attacker, const InFlight& flight, int victim) {
     const Duelist& target = node.side[static_cast<std::size_t>(victim)];
     if (target.balance == 2 && !setup_->settings.hits_on_downed) return;
@@ -68,7 +53,7 @@ std::vector<Duel::Window> Duel::windows(const Node& node, Tick end) const {
           std::min(flight.launch.end, flight.launch.start + strike.strike.active_end - 1);
       const Tick to = std::min(end, last);
       if (from > to || !may_reach(flight, strike, target.flight)) continue;
-      result.push_back({attacker, victim, i, &flight, from, to});
+      windows_.push_back({attacker, victim, i, &flight, from, to});
     }
   };
   add(0, node.side[0].flight, 1);
@@ -78,7 +63,6 @@ std::vector<Duel::Window> Duel::windows(const Node& node, Tick end) const {
       add(2 + static_cast<int>(k), setup_->others[k].flight, victim);
     }
   }
-  return result;
 }
 
 void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& fault) {
@@ -160,26 +144,25 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
 // Walks the windows tick by tick; returns the tick of the first hit that cuts an action, else
 // `end`.
 Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
-  std::vector<Window> open = windows(node, end);
-  if (open.empty()) return end;
+  find_windows(node, end);
+  if (windows_.empty()) return end;
   Tick first = end, last = 0;
-  for (const Window& window : open) {
+  for (const Window& window : windows_) {
     first = std::min(first, window.from);
     last = std::max(last, window.to);
   }
-  std::vector<Met> met;
   for (Tick tick = first; tick <= last; ++tick) {
-    met.clear();
-    for (Window& window : open) {
+    met_.clear();
+    for (Window& window : windows_) {
       if (tick < window.from || tick > window.to) continue;
       const Duelist& victim = node.side[static_cast<std::size_t>(window.victim)];
       const auto contact = contact_at(*window.flight, window.flight->table->strikes[window.strike],
                                       victim.flight, tick);
       if (!contact) continue;
-      met.push_back({window, *contact, tick});
+      met_.push_back({window, *contact, tick});
       window.to = tick;  // one strike lands once
     }
-    for (const Met& one : met) land(node, one, move, fault);
+    for (const Met& one : met_) land(node, one, move, fault);
     if (node.side[0].pending.valid() || node.side[1].pending.valid()) return tick;
   }
   return end;

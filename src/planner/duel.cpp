@@ -119,7 +119,8 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
     duelist.balance = kind == ResponseKind::knockdown        ? 2
                       : kind == ResponseKind::recovery_steps ? 1
                                                              : 0;
-    if (duelist.knocked_out) duelist.flight.launch.end = kNever;
+    const bool stays = kind == ResponseKind::knockdown && !duelist.flight.table->get_up.valid();
+    if (duelist.knocked_out || stays) duelist.flight.launch.end = kNever;
   }
 }
 

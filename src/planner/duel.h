@@ -122,8 +122,19 @@ class Duel {
   int next_side(const Node& node) const;
 
  private:
-  struct Window;
-  struct Met;
+  // Ticks over which one strike may meet one victim before the next decision.
+  struct Window {
+    int attacker = 0;  // side; 2 + index of a bystander
+    int victim = 0;
+    std::size_t strike = 0;
+    const InFlight* flight = nullptr;
+    Tick from = 0, to = 0;  // both included
+  };
+  struct Met {
+    Window window;
+    Contact contact;
+    Tick tick = 0;
+  };
   struct Aspect;  // what candidates are weighed against; candidates.cpp
 
   const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
@@ -134,7 +145,7 @@ class Duel {
 
   // From node.now to the next decision, hit or horizon; the fault is what the mover is blamed for.
   std::int32_t advance(Node& node, const Move& move);
-  std::vector<Window> windows(const Node& node, Tick end) const;
+  void find_windows(const Node& node, Tick end);
   Tick meet(Node& node, Tick end, const Move& move, std::int32_t& fault);
   void land(Node& node, const Met& met, const Move& move, std::int32_t& fault);
   void judge_evasions(Node& node, Tick from, Tick to);
@@ -145,6 +156,8 @@ class Duel {
   Tick horizon_;
   DuelCounts counts_;
   std::vector<DuelEvent>* events_ = nullptr;
+  std::vector<Window> windows_;  // of meet()
+  std::vector<Met> met_;
   struct Scored {
     std::int32_t score;
     Kind kind;

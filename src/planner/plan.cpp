@@ -315,11 +315,34 @@ Planner::Planner(const MotionLibrary& library, std::vector<Contender> contenders
 
 Planner::~Planner() = default;
 
+namespace {
+
+// Nobody to fight, or nothing that can follow: the action nearest to the end of the last one, else
+// the last one held for half a second.
+Plan resting(const MotionLibrary& library, const FightState& state, FighterId fighter,
+             float scale) {
+  const Launch& last = state.fighters[fighter.at()].launch;
+  const std::vector<Edge>& edges = library.machine().edges(last.action);
+  Plan plan;
+  plan.launch = last;
+  plan.launch.end = state.now + kTicksPerSecond / 2;
+  if (!edges.empty()) {
+    const Vec3 ahead = root_at(library, last, state.now, scale) * kForward;
+    plan.launch = following(library, last, edges.front().to, state.now, ahead, scale, 0);
+  }
+  return plan;
+}
+
+}  // namespace
+
 Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact) {
   const Inside& in = *inside_;
   const FighterId opponent = in.opponent_of(state, fighter);
+  const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
+  if (!opponent.valid()) return resting(in.library, state, fighter, scale);
   const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
   const Searched searched = in.search(setup, state);
+  if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
   const Style& style = in.contenders[fighter.at()].style;
   const std::size_t chosen = in.choice(searched.roots, style, state.now, fighter);
 
@@ -333,7 +356,6 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
     plan.record.lines.push_back(in.line_of(searched.roots[which], setup));
   }
   const RootMove<Duel>& move = searched.roots[chosen];
-  const float scale = setup.side[0].tables->body().scale;
   const FighterState& self = state.fighters[fighter.at()];
   if (move.move.forced) {
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);

@@ -78,6 +78,10 @@ std::int32_t minimax(G& game, const typename G::Node& node, SearchCounts& counts
   if (actor == Actor::forced) ++counts.forced;
   std::vector<typename G::Move> moves;
   game.moves(node, moves);
+  if (moves.empty()) {
+    ++counts.leaves;
+    return game.value(node);
+  }
   const bool max = actor != Actor::minimizer;
   std::int32_t best = max ? kWorst : kBest;
   bool any = false;
@@ -215,6 +219,10 @@ class Search {
     Level& here = level(depth);
     here.moves.clear();
     game.moves(node, here.moves);
+    if (here.moves.empty()) {
+      ++counts_.leaves;
+      return {game.value(node), kNoMove};
+    }
     order(game, here, actor, first);
     const bool max = actor == Actor::maximizer;
     Found found{max ? kWorst : kBest, kNoMove};

@@ -225,6 +225,16 @@ TEST_F(PlanTest, ChiefOpponentIsTheNearestWhereNoneIsNamed) {
   }
 }
 
+TEST_F(PlanTest, AloneAFighterRests) {
+  FightState state = facing(1);
+  state.fighters.pop_back();
+  state.fighters[0].opponent = {};
+  Planner planner(library(), contenders(1, quick()), {}, 3);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  EXPECT_TRUE(plan.launch.action.valid());
+  EXPECT_GT(plan.launch.end, state.now);
+}
+
 TEST_F(PlanTest, MemoAnswersWhatRecomputingAnswers) {
   ImpactMemo own({&tables()});
   Random random(8);
