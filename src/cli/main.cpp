@@ -1,7 +1,9 @@
 // The command `ringcraft`.
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
+#include <thread>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -41,6 +43,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", RINGCRAFT_VERSION);
   app.require_subcommand(1);
   CommonOptions options;
+  options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int code = 0;
 
   std::string scene = "duel";
