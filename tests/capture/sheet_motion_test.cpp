@@ -279,7 +279,7 @@ TEST(SheetMotion, NoJointPops) {
       for (std::size_t j = 0; j < kJointCount; ++j) {
         const Vec3 before = world[i - 1].position[j] - world[i - 2].position[j];
         const Vec3 after = world[i].position[j] - world[i - 1].position[j];
-        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, 3.6f)
+        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, 2.7f)
             << name << " " << vrm_name(joint_at(j)) << " at tick " << i;
       }
     }
