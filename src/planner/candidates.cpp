@@ -73,10 +73,8 @@ struct Duel::Aspect {
     Tick begin = 0, end = 0;
     Vec3 from{}, to{};  // its line on the ground, world
     double worth = 0;   // points it would cost
-    bool on_target = false;
   };
   const SideSetup* own = nullptr;
-  const InFlight* self = nullptr;
   const InFlight* opponent = nullptr;
   bool opponent_down = false;
   bool late = false;    // the opponent's attack is too young to be answered by a particular defense
@@ -94,7 +92,13 @@ struct Duel::Aspect {
   }
   double protection(const Action& action, const Frame& start, const Aim& aim,
                     const ActionTable& table) const;
-  double location(const ActionTable& table, const Frame& start, const Aim& aim) const;
+  struct Ending {        // where the candidate leaves its fighter
+    Vec3 root{};         // world
+    float distance = 0;  // to the opponent's root by then, m
+    float cosine = 1;    // of the opponent's bearing off the facing
+  };
+  Ending ending(const ActionTable& table, const Frame& start, const Aim& aim) const;
+  double location(const ActionTable& table, const Ending& end) const;
   double attack(const ActionTable& table, ActionId id, const Frame& start, const Aim& aim) const;
 };
 
@@ -103,7 +107,6 @@ double Duel::Aspect::protection(const Action& action, const Frame& start, const 
                                 const ActionTable& table) const {
   double saved = 0;
   for (const Threat& threat : threats) {
-    if (!threat.on_target) continue;
     double share = 0;
     if (action.defense) {
       const Tick begin = std::max(threat.begin, now + action.defense->begin);
@@ -127,17 +130,22 @@ double Duel::Aspect::protection(const Action& action, const Frame& start, const 
   return saved;
 }
 
-double Duel::Aspect::location(const ActionTable& table, const Frame& start, const Aim& aim) const {
-  const Vec3 root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
-  const Vec3 then = opponent->root_at(now + table.length).position();
-  const float dx = then.x - root.x, dz = then.z - root.z;
-  const float distance = std::sqrt(dx * dx + dz * dz);
+Duel::Aspect::Ending Duel::Aspect::ending(const ActionTable& table, const Frame& start,
+                                          const Aim& aim) const {
+  Ending end;
+  end.root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
+  const Vec3 then = opponent->root_at(now + table.length).position() - end.root;
+  end.distance = std::sqrt(then.x * then.x + then.z * then.z);
   // Facing at the end: the start's, turned by the aim and by the clip.
   const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
   const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
   const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
-  const float cosine = distance > 1e-4f ? (dx * facing_x + dz * facing_z) / distance : 1.0f;
-  const double rate = location_rate(own->weights, distance, cosine, ropes(root));
+  if (end.distance > 1e-4f) end.cosine = (then.x * facing_x + then.z * facing_z) / end.distance;
+  return end;
+}
+
+double Duel::Aspect::location(const ActionTable& table, const Ending& end) const {
+  const double rate = location_rate(own->weights, end.distance, end.cosine, ropes(end.root));
   const double length = seconds(lead + table.length);
   return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
 }
@@ -160,52 +168,54 @@ double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& 
   return points;
 }
 
-void Duel::score_candidates(const Node& node, int who) {
+Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Duelist& self = node.side[static_cast<std::size_t>(who)];
   const Duelist& other = node.side[static_cast<std::size_t>(1 - who)];
-  const SideSetup& own = side(who);
   Aspect aspect;
-  aspect.own = &own;
-  aspect.self = &self.flight;
+  aspect.own = &side(who);
   aspect.opponent = &other.flight;
   aspect.opponent_down = other.balance == 2 && !setup_->settings.hits_on_downed;
   aspect.end = Frame(self.flight.root_at(node.now));
   aspect.opponent_now = other.flight.root_at(node.now).position();
   aspect.ring_half = setup_->settings.ring_half_m;
   const Tick age = node.now - other.flight.launch.start;
-  aspect.late = other.flight.table->action->attacks() && age < ticks(own.style->late_sight_s);
+  aspect.late =
+      other.flight.table->action->attacks() && age < ticks(aspect.own->style->late_sight_s);
   const Vec3 at_now{aspect.end.x, 0, aspect.end.z};
   const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
-  const float distance_now = std::sqrt(toward.x * toward.x + toward.z * toward.z);
-  aspect.rate_now =
-      location_rate(own.weights, distance_now,
-                    distance_now > 1e-4f ? toward.z / distance_now : 1.0f, aspect.ropes(at_now));
-  bool incoming = false;
-  const auto& strikes = other.flight.table->strikes;
-  for (std::size_t i = 0; i < strikes.size(); ++i) {
-    const StrikeTable& strike = strikes[i];
-    if (i < 8 && ((other.flight.launch.spent >> i) & 1u) != 0) continue;
+  const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
+  const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
+  aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, aspect.ropes(at_now));
+
+  const SideSetup& their = side(1 - who);
+  const Launch& launch = other.flight.launch;
+  const Frame& frame = other.flight.aimed;
+  for (std::size_t i = 0; i < other.flight.table->strikes.size(); ++i) {
+    const StrikeTable& strike = other.flight.table->strikes[i];
+    if (i < 8 && ((launch.spent >> i) & 1u) != 0) continue;
+    if (launch.start + strike.strike.active_end <= node.now) continue;
+    if (reaching(strike, frame.to_inner(at_now)) <= 0.2f) continue;
     Aspect::Threat threat;
-    threat.begin = other.flight.launch.start + strike.strike.active_begin;
-    threat.end = other.flight.launch.start + strike.strike.active_end;
-    if (threat.end <= node.now) continue;
-    const Frame& frame = other.flight.aimed;
+    threat.begin = launch.start + strike.strike.active_begin;
+    threat.end = launch.start + strike.strike.active_end;
     threat.from = {frame.x, 0, frame.z};
     threat.to = frame.to_outer(strike.landing);
-    threat.on_target = reaching(strike, frame.to_inner(at_now)) > 0.2f;
-    const SideSetup& their = side(1 - who);
-    threat.worth = own.weights.caution *
-                   hit_points(their.weights, *their.style, strike.strike.kind,
-                              their.clean_damage[other.flight.launch.action.at()][i], false);
+    threat.worth =
+        aspect.own->weights.caution * hit_points(their.weights, *their.style, strike.strike.kind,
+                                                 their.clean_damage[launch.action.at()][i], false);
     aspect.threats.push_back(threat);
-    incoming = incoming || threat.on_target;
   }
+  return aspect;
+}
 
-  scored_.clear();
-  std::int32_t least_turned = std::numeric_limits<std::int32_t>::max();
-  Scored spare{};
-  std::uint64_t turned_away = 0;
+void Duel::score_candidates(const Node& node, int who) {
   static const float kCosineBack = std::cos(kBackTurned);
+  const Duelist& self = node.side[static_cast<std::size_t>(who)];
+  const SideSetup& own = side(who);
+  Aspect aspect = aspect_of(node, who);
+  scored_.clear();
+  float least_turned = -2;
+  Scored spare{};
   for (const NextAction& next : self.flight.table->next) {
     const ActionTable& table = own.tables->at(next.to);
     const Action& action = *table.action;
@@ -217,65 +227,47 @@ void Duel::score_candidates(const Node& node, int who) {
     Vec3 target = start.to_inner(aspect.opponent_now);
     if (!action.attacks()) target = table.end.to_inner(target);
     const Aim aim(target, action.attacks());
-    double points = aspect.location(table, start, aim) + 0.001 * own.launch[next.to.at()];
+    const Aspect::Ending end = aspect.ending(table, start, aim);
+    double points = aspect.location(table, end) + 0.001 * own.launch[next.to.at()];
     if (action.attacks()) points += aspect.attack(table, next.to, start, aim);
-    if (incoming) points += aspect.protection(action, start, aim, table);
-    const Scored one{thousandths(points), action.kind, &next};
-    if (setup_->settings.prune.back_turned) {
-      const Vec3 root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
-      const Vec3 then = other.flight.root_at(aspect.now + table.length).position() - root;
-      const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
-      const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
-      const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
-      const float length = std::sqrt(then.x * then.x + then.z * then.z);
-      const float cosine = length > 1e-4f ? (then.x * facing_x + then.z * facing_z) / length : 1.0f;
-      if (cosine < kCosineBack) {
-        ++turned_away;
-        const auto turned = static_cast<std::int32_t>(-cosine * 1e6f);
-        if (turned < least_turned) least_turned = turned, spare = one;
-        continue;
-      }
+    if (!aspect.threats.empty()) points += aspect.protection(action, start, aim, table);
+    const Scored one{thousandths(points), action.kind, &next, false};
+    if (setup_->settings.prune.back_turned && end.cosine < kCosineBack) {
+      ++counts_.back_turned;
+      if (end.cosine > least_turned) least_turned = end.cosine, spare = one;
+    } else {
+      scored_.push_back(one);
     }
-    scored_.push_back(one);
   }
-  counts_.back_turned += turned_away;
   if (scored_.empty() && spare.next != nullptr) scored_.push_back(spare);
-  pick_candidates(static_cast<std::size_t>(std::max(1, own.style->candidates)), incoming);
+  pick_candidates(static_cast<std::size_t>(std::max(1, own.style->candidates)),
+                  !aspect.threats.empty());
 }
 
 // The best of each class that must not be missing, then the best of the rest; in order of score.
-void Duel::pick_candidates(std::size_t most, bool incoming) {
+void Duel::pick_candidates(std::size_t most, bool threatened) {
   std::stable_sort(scored_.begin(), scored_.end(), [](const Scored& a, const Scored& b) {
     return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
   });
   picked_.clear();
-  if (scored_.size() <= most) {
-    picked_ = scored_;
-    return;
-  }
-  counts_.candidates += scored_.size() - most;
-  std::uint64_t taken = 0;  // bit: place in scored_; the first 64 are enough for any k in use
-  std::size_t count = 0;
-  const auto take = [&](Class wanted, int how_many) {
-    for (std::size_t i = 0; i < scored_.size() && i < 64 && how_many > 0 && count < most; ++i) {
-      if (class_of(scored_[i].kind) != wanted || ((taken >> i) & 1u) != 0) continue;
-      taken |= std::uint64_t{1} << i;
-      ++count;
+  std::size_t left = std::min(most, scored_.size());
+  counts_.candidates += scored_.size() - left;
+  const auto take = [&](int how_many, const auto& wanted) {
+    for (Scored& one : scored_) {
+      if (how_many == 0 || left == 0) return;
+      if (one.taken || !wanted(class_of(one.kind))) continue;
+      one.taken = true;
+      --left;
       --how_many;
     }
   };
-  take(Class::attack, 1);
-  take(Class::step, 1);
-  if (incoming) take(Class::defense, 2);
-  take(Class::idle, 1);
-  if (!incoming) take(Class::defense, 1);
-  for (std::size_t i = 0; i < scored_.size() && i < 64 && count < most; ++i) {
-    if (((taken >> i) & 1u) != 0) continue;
-    taken |= std::uint64_t{1} << i;
-    ++count;
-  }
-  for (std::size_t i = 0; i < scored_.size() && i < 64; ++i) {
-    if (((taken >> i) & 1u) != 0) picked_.push_back(scored_[i]);
+  take(1, [](Class c) { return c == Class::attack; });
+  take(1, [](Class c) { return c == Class::step; });
+  take(threatened ? 2 : 1, [](Class c) { return c == Class::defense; });
+  take(1, [](Class c) { return c == Class::idle; });
+  take(static_cast<int>(left), [](Class) { return true; });
+  for (const Scored& one : scored_) {
+    if (one.taken) picked_.push_back(one);
   }
 }
 

@@ -162,11 +162,13 @@ class Duel {
     std::int32_t score;
     Kind kind;
     const NextAction* next;
+    bool taken;
   };
   std::vector<Scored> scored_, picked_;  // of moves()
 
+  Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
-  void pick_candidates(std::size_t most, bool incoming);
+  void pick_candidates(std::size_t most, bool threatened);
 };
 static_assert(Game<Duel>);
 
