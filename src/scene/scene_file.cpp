@@ -144,7 +144,6 @@ class Reader {
     if (!style) return tl::unexpected(style.error());
     fighter.style = *style;
     fighter.style.horizon_s = given.value("horizon_s", fighter.style.horizon_s);
-    if (given.value("stance", "orthodox") == "southpaw") fighter.stance = Stance::southpaw;
     fighter.team = team_of(given, i);
     fighter.placement.x = given["position"][0].get<float>();
     fighter.placement.z = given["position"][1].get<float>();

@@ -14,13 +14,10 @@
 
 namespace ringcraft {
 
-enum class Stance : std::uint8_t { orthodox, southpaw };
-
 struct SceneFighter {
   std::string name;
   BodySpec body;
-  Style style;  // with the scene's horizon where it gives one
-  Stance stance = Stance::orthodox;
+  Style style;                    // with the scene's horizon where it gives one
   int team = 0;                   // fighters of one team do not fight each other
   Placement placement;            // of the root at tick 0, world
   std::int32_t health = 100'000;  // thousandths of a point
