@@ -65,12 +65,11 @@ void Duel::find_windows(const Node& node, Tick end) {
   }
 }
 
-void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& fault) {
+// The contact as physics is asked about it.
+DuelEvent Duel::event_of(const Node& node, const Met& met) const {
   const Window& window = met.window;
-  Duelist& victim = node.side[static_cast<std::size_t>(window.victim)];
-  if (victim.pending.valid()) return;  // struck already at this tick
   const InFlight& flight = *window.flight;
-  const StrikeTable& strike = flight.table->strikes[window.strike];
+  const InFlight& struck = node.side[static_cast<std::size_t>(window.victim)].flight;
   DuelEvent event;
   event.tick = met.tick;
   event.attacker = window.attacker;
@@ -84,57 +83,69 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
                       : setup_->others[static_cast<std::size_t>(window.attacker - 2)].body;
   blow.victim = side(window.victim).body;
   blow.attack = flight.launch.action;
-  blow.struck_action = victim.flight.launch.action;
-  blow.attack_age = flight.age(met.tick);
-  blow.struck_age = victim.flight.table->clamped(victim.flight.age(met.tick));
-  blow.kind = strike.strike.kind;
+  blow.struck_action = struck.launch.action;
+  blow.attack_age = flight.table->clamped(flight.age(met.tick));
+  blow.struck_age = struck.table->clamped(struck.age(met.tick));
+  blow.kind = flight.table->strikes[window.strike].strike.kind;
   blow.contact = met.contact;
-  blow.attacker_yaw = flight.frame_at(met.tick).yaw - victim.flight.frame_at(met.tick).yaw;
-  event.answer = setup_->memo->answer(blow);
+  blow.attacker_yaw = flight.frame_at(met.tick).yaw - struck.frame_at(met.tick).yaw;
+  return event;
+}
+
+// Points of a landed blow, to the attacker and to whoever blocked it; the strike is spent.
+void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
+  const std::int32_t damage = event.answer.damage;
+  if (event.attacker >= 2) {
+    node.threats_met |= 1u << (4 * (event.attacker - 2) + static_cast<int>(event.strike));
+    if (event.victim != 0) return;
+  } else {
+    spend(node.side[static_cast<std::size_t>(event.attacker)].flight.launch, event.strike);
+  }
+  // A bystander's blow on the planner counts as if the opponent had struck.
+  const int winner = std::min(event.attacker, 1);
+  const SideSetup& attacker = side(winner);
+  credit(node, winner,
+         hit_points(attacker.weights, *attacker.style, event.blow.kind, damage, knocks_down), true);
+  const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
+  if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&
+      victim.flight.table->action->defense) {
+    const std::int32_t full = attacker.clean_damage[event.attack.at()][event.strike];
+    credit(node, event.victim, defense_points(side(event.victim).weights, full - damage), true);
+  }
+}
+
+// Whether the mover has let a blow land that it could see coming.
+bool Duel::unanswered(const Node& node, const DuelEvent& event, const InFlight& attacker,
+                      const Move& move) const {
+  if (move.forced || event.victim != move.side || event.kind != DuelEvent::Kind::hit) return false;
+  const InFlight& struck = node.side[move.side].flight;
+  const Tick known = struck.launch.start - attacker.launch.start;
+  return !struck.table->action->defense && known >= ticks(side(move.side).style->late_sight_s);
+}
+
+void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& fault) {
+  Duelist& victim = node.side[static_cast<std::size_t>(met.window.victim)];
+  if (victim.pending.valid()) return;  // struck already at this tick
+  DuelEvent event = event_of(node, met);
   ImpactAnswer& answer = event.answer;
+  answer = setup_->memo->answer(event.blow);
+  const bool lies = victim.balance == 2;
   victim.health -= answer.damage;
-  if (victim.health <= 0 && victim.balance != 2) {  // nobody stands without health
+  if (victim.health <= 0 && !lies) {  // nobody stands without health
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
-    answer.response = choose_response(side(window.victim).tables->library(), answer.outcome,
-                                      victim.flight.table->root_at(blow.struck_age).yaw);
+    answer.response = choose_response(side(event.victim).tables->library(), answer.outcome,
+                                      victim.flight.table->root_at(event.blow.struck_age).yaw);
   }
   if (events_ != nullptr) events_->push_back(event);
-
-  const bool deliberate = victim.flight.table->action->defense.has_value();
-  const bool seen =
-      move.side == window.victim && victim.flight.launch.start - flight.launch.start >=
-                                        ticks(side(window.victim).style->late_sight_s);
-  const bool down = answer.outcome.response == ResponseKind::knockdown && victim.balance != 2;
-  if (window.attacker < 2) {
-    const SideSetup& attacker = side(window.attacker);
-    spend(node.side[static_cast<std::size_t>(window.attacker)].flight.launch, window.strike);
-    credit(node, window.attacker,
-           hit_points(attacker.weights, *attacker.style, strike.strike.kind, answer.damage, down),
-           true);
-    if (met.contact.blocked && deliberate) {
-      const std::int32_t full = attacker.clean_damage[flight.launch.action.at()][window.strike];
-      credit(node, window.victim, defense_points(side(window.victim).weights, full - answer.damage),
-             true);
-    }
-  } else {
-    node.threats_met |= 1u << (4 * (window.attacker - 2) + static_cast<int>(window.strike));
-    if (window.victim == 0) {  // as if the opponent had struck
-      credit(node, 1,
-             hit_points(side(1).weights, *side(1).style, strike.strike.kind, answer.damage, down),
-             true);
-    }
-  }
-  if (!met.contact.blocked && !move.forced && window.victim == move.side && !deliberate && seen &&
-      setup_->settings.prune.unanswered_hit) {
+  if (setup_->settings.prune.unanswered_hit && unanswered(node, event, *met.window.flight, move)) {
     ++counts_.unanswered_hit;
     fault += kHitFault + answer.damage / 10;
   }
-  if (victim.balance == 2) return;  // lies already
-  if (!answer.outcome.knockout &&
-      !interrupts(met.contact.blocked, answer.impulse, answer.outcome)) {
-    return;
-  }
+  credit_landed(node, event, !lies && answer.outcome.response == ResponseKind::knockdown);
+  const bool cut =
+      answer.outcome.knockout || interrupts(met.contact.blocked, answer.impulse, answer.outcome);
+  if (lies || !cut) return;
   victim.pending = answer.response;
   victim.queue = {};
   victim.knocked_out = answer.outcome.knockout;

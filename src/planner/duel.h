@@ -147,6 +147,10 @@ class Duel {
   std::int32_t advance(Node& node, const Move& move);
   void find_windows(const Node& node, Tick end);
   Tick meet(Node& node, Tick end, const Move& move, std::int32_t& fault);
+  DuelEvent event_of(const Node& node, const Met& met) const;
+  void credit_landed(Node& node, const DuelEvent& event, bool knocks_down);
+  bool unanswered(const Node& node, const DuelEvent& event, const InFlight& attacker,
+                  const Move& move) const;
   void land(Node& node, const Met& met, const Move& move, std::int32_t& fault);
   void judge_evasions(Node& node, Tick from, Tick to);
   void add_location(Node& node, Tick from, Tick to) const;
