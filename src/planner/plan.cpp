@@ -361,9 +361,15 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
   } else {
     const InFlight other(*setup.side[1].tables, state.fighters[opponent.at()].launch);
-    plan.launch = following(
-        in.library, self.launch, move.move.action, state.now, other.root_at(state.now).position(),
-        scale, in.library.action(move.move.action).attacks() ? kMostAttackAim : kMostAim);
+    // Where a path leads to the chosen action, its first transition is launched; at its end the
+    // fighter decides anew.
+    ActionId action = move.move.action;
+    if (in.library.machine().edge(self.launch.action, action) == nullptr) {
+      action = in.library.machine().path(self.launch.action, action)->via.front();
+    }
+    plan.launch =
+        following(in.library, self.launch, action, state.now, other.root_at(state.now).position(),
+                  scale, in.library.action(action).attacks() ? kMostAttackAim : kMostAim);
   }
   plan.foreseen = foreseen_events(setup, in.library, state, move, searched.horizon);
   return plan;
