@@ -16,6 +16,7 @@ struct Index {
   constexpr explicit Index(std::size_t v) : value(static_cast<std::int32_t>(v)) {}
   constexpr bool valid() const { return value >= 0; }
   constexpr std::size_t at() const { return static_cast<std::size_t>(value); }
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the comparison with 0 for a pointer.
   constexpr auto operator<=>(const Index&) const = default;
 };
 
