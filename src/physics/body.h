@@ -95,4 +95,8 @@ std::vector<LimitViolation> limit_violations(const BodyModel& body, const Pose& 
 // shortest way toward the middle of the range.
 Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance);
 
+// The same in a running motion: a shoulder that has turned over stays on the side it was on
+// `before`.
+Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance, const Pose& before);
+
 }  // namespace ringcraft

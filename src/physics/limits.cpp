@@ -56,13 +56,36 @@ float neck_excess(Quat q) {
 // The humerus stays within 117 degrees of the direction half-way between its extremes (forward, out
 // and down): flexion 180 lies 110 off it, extension 60 lies 114. Rotation is counted from the
 // scapular plane; away from it the same humeral rotation reads up to 30 degrees more (Codman).
+constexpr float kShoulderSwing = radians(117), kShoulderTwist = radians(120);
+
+Quat shoulder_middle() {
+  return rotation_between(kLeft, Vec3{.55f, -.35f, .75f});
+}
+
+// Toward the far end of the cone the twist means less and less.
+float twist_range(float swing) {
+  return kShoulderTwist + std::max(0.0f, swing - kShoulderSwing) * 3;
+}
+
 float shoulder_excess(Quat q) {
-  static const Quat middle = rotation_between(kLeft, Vec3{.55f, -.35f, .75f});
-  const Split s = split(glm::conjugate(middle) * q, kLeft);
+  const Split s = split(glm::conjugate(shoulder_middle()) * q, kLeft);
   const float swing = glm::length(s.swing);
-  // Near the far end of the cone the twist means nothing.
-  const float twist = swing > radians(130) ? 0 : beyond(s.twist, {-120, 120});
-  return std::max(swing - radians(117), twist);
+  return std::max({swing - kShoulderSwing, std::abs(s.twist) - twist_range(swing), 0.0f});
+}
+
+// The nearest humeral turn at most `tolerance` beyond the range. A twist beyond half a turn is
+// counted on from `before`: it stays on that side.
+Quat nearest_shoulder(Quat q, Quat before, float tolerance) {
+  const Quat unturned = glm::conjugate(shoulder_middle());
+  const Split s = split(unturned * q, kLeft);
+  const float swing = glm::length(s.swing);
+  const float most = kShoulderSwing + tolerance;
+  const float range = twist_range(std::min(swing, most)) + tolerance;
+  const Vec3 kept = swing > most ? s.swing * (most / swing) : s.swing;
+  const float from = split(unturned * before, kLeft).twist;
+  const float twist = from + wrapped_angle(s.twist - from);
+  return shoulder_middle() * from_rotation_vector(kept) *
+         glm::angleAxis(std::clamp(twist, -range, range), kLeft);
 }
 
 // Flexion turns the forearm from +x to +z: about -y on the left. Fifteen degrees of hyperextension
@@ -179,10 +202,6 @@ Pose eased(const Limit& limit, const Pose& pose, float share) {
     q = glm::normalize(glm::slerp(q, in_hemisphere_of(goal, q), share));
   };
   const Quat middle = as_left(limit.middle, limit.left);
-  if (limit.excess == shoulder_excess) {
-    toward(limit.joint, glm::conjugate(pose.rotation[index(limit.chain[0])]) * middle);
-    return out;
-  }
   for (int i = 0; i < limit.count; ++i) toward(limit.chain[static_cast<std::size_t>(i)], middle);
   return out;
 }
@@ -198,10 +217,22 @@ std::vector<LimitViolation> limit_violations(const BodyModel&, const Pose& pose,
   return found;
 }
 
-Pose within_limits(const BodyModel&, const Pose& pose, float tolerance) {
+Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance) {
+  return within_limits(body, pose, tolerance, rest_pose(body.skeleton));
+}
+
+Pose within_limits(const BodyModel&, const Pose& pose, float tolerance, const Pose& before) {
   Pose out = pose;
   for (const Limit& limit : limits()) {
     if (excess_of(limit, out) <= tolerance) continue;
+    if (limit.excess == shoulder_excess) {
+      const Quat clavicle = out.rotation[index(limit.chain[0])];
+      const Quat near = nearest_shoulder(as_left(chained(limit, out), limit.left),
+                                         as_left(chained(limit, before), limit.left), tolerance);
+      out.rotation[index(limit.joint)] =
+          glm::normalize(glm::conjugate(clavicle) * as_left(near, limit.left));
+      continue;
+    }
     float low = 0, high = 1;  // shares: beyond, within
     for (int i = 0; i < 12; ++i) {
       const float share = (low + high) / 2;

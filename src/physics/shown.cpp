@@ -127,27 +127,67 @@ void lift(const BodyModel& body, const Limb& limb, float depth, Vec3 fallback, P
              pose);
 }
 
-// No sole and no glove below the ground, no joint beyond its range. A limb is lifted by itself;
-// what that cannot do for a foot, or the ranges forbid, the whole body does.
-Pose mended(const BodyModel& body, const Pose& simulated) {
-  constexpr float kLeast = .001f;  // m
-  Pose pose = within_limits(body, simulated, kLimitTolerance);
-  for (const Side side : {Side::left, Side::right}) {
-    const WorldPose world = world_pose(body.skeleton, pose);
-    const float sunk = depth_below_ground(body, world, side);
-    if (sunk >= kLeast) lift(body, leg(side), sunk, kForward, pose);
-    const Capsule glove =
-        capsules(body, world)[index(side == Side::left ? Part::left_hand : Part::right_hand)];
-    const float hand = glove.radius - std::min(glove.a.y, glove.b.y);
-    if (hand >= kLeast) lift(body, arm(side), hand, -kForward, pose);
+// Mends simulated poses one after the other: no sole and no glove below the ground, no joint beyond
+// its range. A limb is lifted by itself; what that cannot do for a foot, or the ranges forbid, the
+// whole body does. A correction comes and goes at a limited speed: near a range's far end it can
+// turn over.
+class Mender {
+ public:
+  explicit Mender(const BodyModel& body) : body_(body) {}
+
+  Pose operator()(const Pose& simulated) {
+    const Pose& before = started_ ? shown_ : simulated;
+    Pose pose = within_limits(body_, simulated, kLimitTolerance, before);
+    for (const Side side : {Side::left, Side::right}) {
+      const WorldPose world = world_pose(body_.skeleton, pose);
+      const float sunk = depth_below_ground(body_, world, side);
+      if (sunk >= kLeast) lift(body_, leg(side), sunk, kForward, pose);
+      const Part hand = side == Side::left ? Part::left_hand : Part::right_hand;
+      const Capsule glove = capsules(body_, world)[index(hand)];
+      const float deep = glove.radius - std::min(glove.a.y, glove.b.y);
+      if (deep >= kLeast) lift_glove(side, deep, pose);
+    }
+    pose = within_limits(body_, pose, kLimitTolerance, before);
+    if (started_) hold_back(simulated, pose);
+    const WorldPose world = world_pose(body_.skeleton, pose);
+    const float depth = std::max(depth_below_ground(body_, world, Side::left),
+                                 depth_below_ground(body_, world, Side::right));
+    if (depth >= kLeast) pose.hips.y += depth;
+    started_ = true;
+    simulated_ = simulated;
+    shown_ = pose;
+    return pose;
   }
-  pose = within_limits(body, pose, kLimitTolerance);
-  const WorldPose world = world_pose(body.skeleton, pose);
-  const float depth = std::max(depth_below_ground(body, world, Side::left),
-                               depth_below_ground(body, world, Side::right));
-  if (depth >= kLeast) pose.hips.y += depth;
-  return pose;
-}
+
+ private:
+  static constexpr float kLeast = .001f;           // m
+  static constexpr float kMostTurn = radians(60);  // a tick, beside what the simulation turns
+
+  static float angle(Quat a, Quat b) { return glm::length(rotation_vector(a * glm::conjugate(b))); }
+
+  // The hand goes with the forearm. A glove that its arm cannot lift within its ranges stays sunk.
+  void lift_glove(Side side, float depth, Pose& pose) const {
+    Pose lifted = pose;
+    const std::size_t hand = index(arm(side).end);
+    lift(body_, arm(side), depth, -kForward, lifted);
+    lifted.rotation[hand] = pose.rotation[hand];
+    if (limit_violations(body_, lifted, kLimitTolerance + radians(.5f)).empty()) pose = lifted;
+  }
+
+  void hold_back(const Pose& simulated, Pose& pose) const {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const float most = angle(simulated.rotation[j], simulated_.rotation[j]) + kMostTurn;
+      const float turn = angle(pose.rotation[j], shown_.rotation[j]);
+      if (turn <= most) continue;
+      const Quat to = in_hemisphere_of(pose.rotation[j], shown_.rotation[j]);
+      pose.rotation[j] = glm::normalize(glm::slerp(shown_.rotation[j], to, most / turn));
+    }
+  }
+
+  const BodyModel& body_;
+  bool started_ = false;
+  Pose simulated_, shown_;  // of the tick before
+};
 
 class Shown {
  public:
@@ -161,6 +201,7 @@ class Shown {
         ragdoll_(body, frame_.pose(), frame_.before(), kTickSeconds,
                  {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
         balance_(body, frame_),
+        mend_(body),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
@@ -210,7 +251,7 @@ class Shown {
     // The start pose was let down onto the ground: shown, that comes gradually.
     pose.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
     const Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
-    return frame_.out(mended(body_, met));
+    return frame_.out(mend_(met));
   }
 
   Tone fall_tone(float now) const {
@@ -260,7 +301,7 @@ class Shown {
     still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
     lifted.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
-    const Pose shown = frame_.out(mended(body_, lifted));
+    const Pose shown = frame_.out(mend_(lifted));
     const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
     if (over) rested_ = shown;
     return shown;
@@ -273,6 +314,7 @@ class Shown {
   ImpactFrame frame_;
   Ragdoll ragdoll_;
   Balance balance_;
+  Mender mend_;
   int steps_of_blow_;
   bool protecting_ = false;
   Pose protective_;
