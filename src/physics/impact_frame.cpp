@@ -151,21 +151,26 @@ void ImpactFrame::put_on_ground(const BodyModel& body) {
 
 void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share) {
   const Blow& blow = frame.blow();
-  const float size = glm::length(blow.impulse);
-  if (size <= 0) return;
-  const Vec3 line = blow.impulse / size;
-  const float mass = effective_mass(body, frame.pose(), blow.part, blow.point, line, kPartTone);
-  const float taken = std::min(size, mass * kMostPartSpeed);
+  float left = glm::length(blow.impulse);
+  if (left <= 0) return;
+  const Vec3 line = blow.impulse / left;
   // The point goes with the part while a long blow lasts.
   const WorldPose start = world_pose(body.skeleton, frame.pose());
   const std::size_t j = index(joint_of(blow.part));
   const Vec3 local = glm::conjugate(start.rotation[j]) * (blow.point - start.position[j]);
   const PartMotion now = ragdoll.motion(blow.part);
-  ragdoll.push(blow.part, now.origin + now.rotation * local, line * (taken * share));
-  const int parent = parent_of(blow.part);
-  if (taken < size && parent >= 0) {
-    ragdoll.push(part_at(static_cast<std::size_t>(parent)), now.origin,
-                 line * ((size - taken) * share));
+  Vec3 point = now.origin + now.rotation * local;
+  Vec3 met = blow.point;  // where the point was when the blow landed
+  for (Part part = blow.part; left > 0;) {
+    const int parent = parent_of(part);
+    const float mass = effective_mass(body, frame.pose(), part, met, line, kPartTone);
+    const float taken = parent < 0 ? left : std::min(left, mass * kMostPartSpeed);
+    ragdoll.push(part, point, line * (taken * share));
+    left -= taken;
+    if (parent < 0) break;
+    point = ragdoll.motion(part).origin;
+    met = start.position[index(joint_of(part))];
+    part = part_at(static_cast<std::size_t>(parent));
   }
 }
 

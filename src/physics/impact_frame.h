@@ -41,7 +41,7 @@ class ImpactFrame {
 };
 
 // Applies `share` of the blow: as much as the part can take (effective mass times 15 m/s), the rest
-// at the joint to its parent.
+// at the joint to its parent, and so on.
 void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share);
 
 // The base under the planted feet where they are now: a struck foot has moved.
