@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "physics/balance.h"
+#include "base/random.h"
 #include "physics/hit.h"
+#include "physics/impact_frame.h"
 #include "physics/ragdoll.h"
 
 namespace ringcraft {
@@ -250,6 +251,37 @@ TEST_F(Impact, ThresholdsAreThoseOfTheMeasuredTable) {
       EXPECT_NEAR(low, row.square[d], .15f * row.square[d]) << name_of(row.part) << " " << d;
     }
   }
+}
+
+// ragdoll.md section 2: at 100 ms the rule agrees with the simulated end in 96 % of random hits.
+TEST_F(Impact, TheRuleAgreesWithTheSimulatedEnd) {
+  Random random(21);
+  int agreed = 0;
+  constexpr int kHits = 40;
+  for (int i = 0; i < kHits; ++i) {
+    const Pose& pose = random.below(2) ? fighting : square;
+    const std::array<Part, 4> parts = {Part::chest, Part::abdomen, Part::pelvis, Part::head};
+    const Part part = parts[static_cast<std::size_t>(random.below(4))];
+    const float way = random.uniform(-kPi, kPi), impulse = random.uniform(5, 65);
+    Hit hit(body, pose, part, impulse * Vec3{std::sin(way), 0, std::cos(way)});
+    hit.input.tone = random.uniform(.5f, 1);
+    const bool held = impulse_step(body, hit.input).margin <= 0;
+
+    const ImpactFrame frame(body, hit.input);
+    Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
+    ragdoll.set_tone(whole_body(hit.input.tone));
+    strike(ragdoll, body, frame, 1);
+    Balance balance(body, frame);
+    const float height = ragdoll.center_of_mass().y;
+    bool fell = false;
+    for (int k = 0; k < 600 && !fell; ++k) {
+      balance.guide(ragdoll, frame, k);
+      ragdoll.step();
+      fell = ragdoll.center_of_mass().y < .75f * height;
+    }
+    agreed += held != fell;
+  }
+  EXPECT_GE(agreed, kHits * 85 / 100);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "physics/hit.h"
 #include "physics/impact.h"
 #include "physics/ragdoll.h"
@@ -23,18 +24,20 @@ class Shown : public testing::Test {
   }
   WorldPose world(const Pose& pose) const { return world_pose(body.skeleton, pose); }
 
-  void expect_sound(const std::vector<Pose>& poses) const {
+  void expect_sound(const std::vector<Pose>& poses, std::size_t most_beyond = 1) const {
+    std::size_t beyond = 0;  // an arm that is flung over may be a tick or two on its way back
     for (const Pose& pose : poses) {
       const WorldPose w = world(pose);
       for (std::size_t j = 0; j < kJointCount; ++j) {
         ASSERT_TRUE(std::isfinite(w.position[j].x + w.position[j].y + w.position[j].z));
         EXPECT_NEAR(glm::length(pose.rotation[j]), 1, 1e-4f);
       }
-      EXPECT_TRUE(limit_violations(body, pose, radians(3)).empty());
+      beyond += !limit_violations(body, pose, radians(3)).empty();
       for (const Side side : {Side::left, Side::right}) {
         for (const Vec3& corner : sole(body, w, side)) EXPECT_GT(corner.y, -.005f);
       }
     }
+    EXPECT_LE(beyond, most_beyond);
   }
   float fastest_joint(const std::vector<Pose>& poses) const {
     float fastest = 0;
@@ -164,6 +167,29 @@ TEST_F(Shown, TheMotionGoesOnFromTheVelocityItHas) {
              after = world(poses[0]).position[hand] - world(punch[4]).position[hand];
   EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, 1.0f);  // m/s
   EXPECT_LT(glm::distance(world(poses[11]).position[hand], world(punch[16]).position[hand]), .12f);
+}
+
+// Blows of any strength on any part from any side, on bodies of all sizes: nothing explodes.
+TEST_F(Shown, NoHitExplodes) {
+  Random random(4);
+  for (int i = 0; i < 40; ++i) {
+    body = make_body({"b", random.uniform(1.5f, 2.05f), random.uniform(48, 130),
+                      i % 3 ? Sex::male : Sex::female});
+    fighting = placed(i % 2 ? stance::fighting(body) : mirrored(stance::fighting(body)),
+                      {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)});
+    const float way = random.uniform(-kPi, kPi), impulse = random.uniform(0, 300);
+    Hit hit(body, fighting, part_at(static_cast<std::size_t>(random.below(kPartCount))),
+            impulse * Vec3{std::sin(way), random.uniform(-.4f, .4f), std::cos(way)});
+    hit.input.tone = random.uniform(0, 1);
+    hit.input.blow.effective_mass = random.uniform(1, 12);
+    const auto poses = simulate_response(body, hit.input, impulse_step(body, hit.input), {}, 150);
+    expect_sound(poses, 4);
+    for (const Pose& pose : poses) {
+      EXPECT_LT(glm::distance(pose.hips, fighting.hips), 6.0f) << i;
+      EXPECT_LT(pose.hips.y, 2.0f) << i;
+    }
+    EXPECT_LT(fastest_joint(poses), 45) << i;
+  }
 }
 
 }  // namespace
