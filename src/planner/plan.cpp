@@ -361,11 +361,11 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
   } else {
     const InFlight other(*setup.side[1].tables, state.fighters[opponent.at()].launch);
-    // Where a path leads to the chosen action, its first transition is launched; at its end the
-    // fighter decides anew.
-    ActionId action = move.move.action;
-    if (in.library.machine().edge(self.launch.action, action) == nullptr) {
-      action = in.library.machine().path(self.launch.action, action)->via.front();
+    // Where a path leads to the chosen action, its first transition is launched; the fight may play
+    // the rest (plan.then) or let the fighter decide anew.
+    const ActionId action = move.move.first();
+    for (const ActionId queued : move.child.node.side[0].queue) {
+      if (queued.valid()) plan.then.push_back(queued);
     }
     plan.launch =
         following(in.library, self.launch, action, state.now, other.root_at(state.now).position(),

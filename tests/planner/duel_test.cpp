@@ -521,6 +521,7 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
   EXPECT_EQ(found->next->path, std::vector<ActionId>{sink});
   EXPECT_EQ(found->first(), sink);
   DuelNode node = game.apply(root, *found).node;
+  EXPECT_EQ(node.side[0].queue[0], blow);
   node = game.apply(node, {low.find("idle"), 1, false,
                            low_tables.at(low.find("idle")).find_next(low.find("idle"))})
              .node;
@@ -537,6 +538,25 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
       (Frame(root.side[0].flight.root_at(0)) * found->next->alignment).placement();
   EXPECT_LT(glm::distance(planned.position(), node.side[0].flight.launch.placement.position()),
             0.05f);
+}
+
+TEST_F(DuelTest, PlanLaunchesAPathsFirstActionAndNamesTheRest) {
+  const MotionLibrary low = with_low_stance();
+  Style style;
+  style.horizon_s = 0.8;
+  style.candidates = 40;
+  style.temperature = 0;
+  style.liked["low_cross"] = 50;  // so that it is chosen whatever it brings
+  style.liked["sink"] = style.liked["idle"] = style.liked["rise"] = -50;
+  FightState state = facing(3);
+  for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
+  Planner planner(low, contenders(2, style), {}, 1);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  EXPECT_EQ(low.action(plan.launch.action).name, "sink");
+  EXPECT_EQ(plan.then, std::vector<ActionId>{low.find("low_cross")});
+  const Line& line = plan.record.lines[static_cast<std::size_t>(plan.record.chosen)];
+  EXPECT_EQ(line.actions[0], "sink");
+  EXPECT_NE(std::find(line.actions.begin(), line.actions.end(), "*low_cross"), line.actions.end());
 }
 
 TEST_F(DuelTest, HashSeesWhatTheFutureDependsOn) {
