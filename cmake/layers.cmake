@@ -34,6 +34,7 @@ endif()
 set(ringcraft_base_packages fmt::fmt spdlog::spdlog glm::glm nlohmann_json::nlohmann_json
     Threads::Threads ${XXHASH_LIBRARY})
 set(ringcraft_motion_packages Eigen3::Eigen Boost::headers)
+set(ringcraft_capture_packages ${TINYGLTF_LIBRARY})
 set(ringcraft_physics_packages PkgConfig::BULLET Eigen3::Eigen)
 set(ringcraft_io_packages ${TINYGLTF_LIBRARY})
 

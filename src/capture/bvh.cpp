@@ -2,69 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "capture/words.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kLargestNumber = 1e7f;   // beyond it no length or angle makes sense
 constexpr std::size_t kMissingRows = 2;  // that exporters miscount; more are a file cut off
 constexpr const char* kExportAgain = "export the file again";
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-// Lower-case copy, for keywords.
-std::string lowered(std::string_view word) {
-  std::string out(word);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
-// Latin-1 bytes that are no UTF-8 become UTF-8; control characters become '?'.
-std::string clean_name(std::string_view name) {
-  std::string out;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f)
-      out += '?';
-    else if (byte < 0x80)
-      out += c;
-    else {
-      out += static_cast<char>(0xC0 | (byte >> 6));
-      out += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
-  return out.substr(0, 200);
-}
-
-// A word of the file for a message: short and printable.
-std::string quoted(std::string_view word) {
-  return "'" + clean_name(word.substr(0, 24)) + "'";
-}
-
-// A finite number that fills the whole word.
-std::optional<float> number(std::string_view word) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  float value = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (fault == std::errc::result_out_of_range && end == word.data() + word.size()) {
-    // Too small for a float is zero; too large is refused below.
-    return word.find("e-") != word.npos || word.find("E-") != word.npos ? std::optional(0.0f)
-                                                                        : std::nullopt;
-  }
-  if (fault != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  if (!std::isfinite(value) || std::abs(value) > kLargestNumber) return std::nullopt;
-  return value;
-}
 
 enum class Channel : std::uint8_t {
   x_position,
@@ -84,50 +34,9 @@ std::optional<Channel> channel_from(std::string_view word) {
   return std::nullopt;
 }
 
-// Words of the file with their lines.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-
-  // The next word, "" at the end.
-  std::string_view next() {
-    while (at_ < text_.size() && (is_space(text_[at_]) || text_[at_] == '\n')) {
-      if (text_[at_] == '\n') ++line_;
-      ++at_;
-    }
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_space(text_[at_]) && text_[at_] != '\n') ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-  std::string_view peek() {
-    const Words before = *this;
-    const std::string_view word = next();
-    *this = before;
-    return word;
-  }
-  // What is left of the line, without the blanks around it; then stands at the next line.
-  std::string_view rest_of_line() {
-    std::size_t end = text_.find('\n', at_);
-    if (end == text_.npos) end = text_.size();
-    std::string_view rest = text_.substr(at_, end - at_);
-    at_ = std::min(end + 1, text_.size());
-    if (end < text_.size()) ++line_;
-    while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
-    while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
-    return rest;
-  }
-  bool done() const { return at_ >= text_.size(); }
-  int line() const { return line_; }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int line_ = 1;
-};
-
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file, const BvhLimits& limits)
+  Reader(std::string_view text, const std::string& file, const CaptureLimits& limits)
       : words_(text), limits_(limits) {
     clip_.file = file;
   }
@@ -147,7 +56,8 @@ class Reader {
   tl::unexpected<Error> unexpected_word(std::string_view word, std::string_view wanted) const {
     if (word.empty())
       return fault(words_.line(), fmt::format("the file ends where {} should stand", wanted));
-    return fault(words_.line(), fmt::format("{} should stand here, not {}", wanted, quoted(word)));
+    return fault(words_.line(),
+                 fmt::format("{} should stand here, not {}", wanted, in_quotes(word)));
   }
 
   Result<float> read_number() {
@@ -238,7 +148,7 @@ class Reader {
       if (!channel) return unexpected_word(word, "a channel such as Zrotation");
       if (std::count(channels_[joint].begin(), channels_[joint].end(), *channel) != 0)
         return fault(words_.line(),
-                     fmt::format("channel {} stands twice in one joint", quoted(word)));
+                     fmt::format("channel {} stands twice in one joint", in_quotes(word)));
       channels_[joint].push_back(*channel);
     }
     channel_count_ += channels_[joint].size();
@@ -299,7 +209,7 @@ class Reader {
       for (std::string_view word = cells.next(); !word.empty(); word = cells.next()) {
         const auto value = number(word);
         if (!value)
-          return fault(line, fmt::format("{} is not a number that can be used", quoted(word)));
+          return fault(line, fmt::format("{} is not a number that can be used", in_quotes(word)));
         row.push_back(*value);
         if (row.size() > channel_count_) break;
       }
@@ -349,7 +259,7 @@ class Reader {
   }
 
   Words words_;
-  BvhLimits limits_;
+  CaptureLimits limits_;
   RawClip clip_;
   std::vector<std::vector<Channel>> channels_;
   std::size_t channel_count_ = 0;
@@ -359,7 +269,8 @@ class Reader {
 
 }  // namespace
 
-Result<RawClip> parse_bvh(std::string_view text, const std::string& file, const BvhLimits& limits) {
+Result<RawClip> parse_bvh(std::string_view text, const std::string& file,
+                          const CaptureLimits& limits) {
   return Reader(text, file, limits).read();
 }
 

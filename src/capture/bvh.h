@@ -10,16 +10,9 @@
 
 namespace ringcraft {
 
-// Limits on what a file may ask for.
-struct BvhLimits {
-  std::size_t joints = 1024;
-  std::size_t depth = 128;
-  std::size_t cells = std::size_t{8} << 20;  // frames x joints
-};
-
 // `file` is only for messages.
 Result<RawClip> parse_bvh(std::string_view text, const std::string& file,
-                          const BvhLimits& limits = {});
+                          const CaptureLimits& limits = {});
 
 Result<RawClip> read_bvh(const std::filesystem::path& path);
 

@@ -7,9 +7,9 @@
 
 #include "base/document.h"
 #include "base/file.h"
-#include "capture/bvh.h"
 #include "capture/cut.h"
 #include "capture/profile.h"
+#include "capture/read_capture.h"
 #include "capture/retarget.h"
 #include "capture/sheet.h"
 
@@ -98,6 +98,10 @@ struct Collector {
   }
 };
 
+std::string clip_suffix(const std::string& clip) {
+  return clip.empty() ? "" : " " + clip;
+}
+
 Result<void> add_capture(const Document& manifest, std::size_t number, const Json& entry,
                          Collector& out) {
   const std::string pointer = fmt::format("/capture/{}", number);
@@ -113,7 +117,12 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
                        fmt::format("the capture {} is not there", path.string()),
                        package.empty() ? "correct the path" : "apt-get install " + package);
   }
-  auto raw = read_bvh(path);
+  CaptureSource source;
+  source.clip = text_of(entry, "clip");
+  if (entry.contains("skeleton"))
+    source.skeleton = manifest.path.parent_path() / text_of(entry, "skeleton");
+  if (entry.contains("frame_rate")) source.frames_per_second = number_of(entry, "frame_rate");
+  auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
   replace_junk_first_frame(*raw);
   for (const std::string& note : raw->notes) out.note(path.string() + ": " + note);
@@ -131,7 +140,7 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
                              manifest.path.string(), place);
     if (!action) return tl::unexpected(action.error());
     action->source =
-        fmt::format("{} {:.2f}-{:.2f} s", path.filename().string(),
+        fmt::format("{} {:.2f}-{:.2f} s", path.filename().string() + clip_suffix(source.clip),
                     number_of(entry["action"][i], "begin"), number_of(entry["action"][i], "end"));
     if (auto ok = out.add(std::move(*action), manifest.path.string(), place); !ok) return ok;
   }

@@ -1,6 +1,7 @@
 #include "capture/profile.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -63,7 +64,9 @@ std::array<int, kJointCount> found_joints(const SkeletonProfile& profile, const 
   for (std::size_t j = 0; j < kJointCount; ++j) {
     found[j] = profile.source[j].empty() ? -1 : find_joint(profile, clip, profile.source[j]);
     const int carrier = mapped_carrier(found, j);
-    if (found[j] >= 0 && carrier >= 0 && !hangs_below(clip, found[j], carrier)) found[j] = -1;
+    if (found[j] >= 0 && carrier >= 0 && !profile.detached[j] &&
+        !hangs_below(clip, found[j], carrier))
+      found[j] = -1;
   }
   return found;
 }
@@ -89,6 +92,10 @@ Result<SkeletonProfile> read_profile(const std::filesystem::path& path) {
   for (const auto& [bone, joint] : value["joints"].items())
     if (const auto known = joint_from_vrm_name(bone))
       profile.source[index(*known)] = joint.get<std::string>();
+  if (value.contains("detached"))
+    for (const auto& bone : value["detached"])
+      if (const auto known = joint_from_vrm_name(bone.get<std::string>()))
+        profile.detached[index(*known)] = true;
   return profile;
 }
 
@@ -127,11 +134,14 @@ Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profile
                                      const RawClip& clip) {
   constexpr float kLeast = 0.8f;
   const SkeletonProfile* best = nullptr;
-  std::pair<float, long> best_score{kLeast, -1};
+  std::tuple<bool, float, long> best_score{false, kLeast, -1};
   for (const SkeletonProfile& profile : profiles) {
     const auto names = std::count_if(profile.source.begin(), profile.source.end(),
                                      [](const std::string& name) { return !name.empty(); });
-    const std::pair<float, long> fit{score(profile, clip), static_cast<long>(names)};
+    const float share = score(profile, clip);
+    if (share < kLeast) continue;
+    const std::tuple<bool, float, long> fit{map_joints(profile, clip).has_value(), share,
+                                            static_cast<long>(names)};
     if (fit > best_score) {
       best_score = fit;
       best = &profile;
@@ -170,6 +180,11 @@ Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip)
     map.metres_per_unit = unit;
     const Vec3 hips_line =
         map.axes * (place(Joint::left_upper_leg) - place(Joint::right_upper_leg));
+    const Vec3 leg_line = map.axes * (place(Joint::left_foot) - place(Joint::left_upper_leg));
+    if (leg_line.y > -0.5f * glm::length(leg_line))
+      return input_error(clip.file, "",
+                         fmt::format("profile {}: the legs do not point down", profile.name),
+                         "correct up and forward of the profile");
     if (hips_line.x <= 0)
       return input_error(clip.file, "",
                          fmt::format("profile {}: the left leg is on the right", profile.name),

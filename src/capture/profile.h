@@ -19,6 +19,9 @@ struct SkeletonProfile {
   Vec3 forward{0, 0, 1};               // where the rest pose looks, in the file's axes
   std::vector<std::string> prefixes;   // taken off the file's names before they are compared
   std::array<std::string, kJointCount> source;  // empty where the file has no such joint
+  // Joints that hang elsewhere than below the bone that should carry them, as feet of rigs do that
+  // are led by inverse kinematics.
+  std::array<bool, kJointCount> detached{};
 };
 
 // A profile laid on one capture.
@@ -37,11 +40,13 @@ Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& 
 // joint that should carry it. Zero when a limb is missing.
 float score(const SkeletonProfile& profile, const RawClip& clip);
 
-// The best fit of at least 0.8; among equals the one that names more joints, then the first.
+// The best fit of at least 0.8; profiles whose axes and units fit go first, among equals the one
+// that names more joints, then the first.
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip);
 
-// Error when a needed joint is missing or the legs have no human length in any of the units.
+// Error when a needed joint is missing, the legs have no human length in any of the units, or the
+// profile's axes do not have the legs below and the left leg on the left.
 Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip);
 
 }  // namespace ringcraft

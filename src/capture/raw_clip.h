@@ -15,6 +15,13 @@ struct RawJoint {
   Vec3 end{};       // offset of its end site; zero where there is none
 };
 
+// Limits on what a file may ask for.
+struct CaptureLimits {
+  std::size_t joints = 1024;
+  std::size_t depth = 128;
+  std::size_t cells = std::size_t{8} << 20;  // frames x joints
+};
+
 // Joint positions (file units) and rotations of one moment, in the file's axes.
 struct RawPose {
   std::vector<Vec3> position;

@@ -1,0 +1,27 @@
+#pragma once
+// glTF captures (.gltf, .glb, .vrm, .vrma): a skeleton of nodes and one of its animations, sampled
+// at 60 Hz. The rest pose is the one in which the skin was bound, for VRM that of the nodes; VRM
+// bones go by their VRM names. Meshes are not read.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "capture/raw_clip.h"
+
+namespace ringcraft {
+
+// `clip` is the animation's name, whole or after its last '|'; empty for the first. `file` is only
+// for messages.
+Result<RawClip> parse_gltf(std::string_view bytes, const std::string& file,
+                           const std::string& clip = "", const CaptureLimits& limits = {});
+
+// Buffers of their own are read from the file's folder and below.
+Result<RawClip> read_gltf(const std::filesystem::path& path, const std::string& clip = "");
+
+// Names of all animations.
+Result<std::vector<std::string>> gltf_clips(const std::filesystem::path& path);
+
+}  // namespace ringcraft

@@ -1,0 +1,23 @@
+#pragma once
+// glTF containers, cut down to what concerns motion before anything else reads them.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace ringcraft {
+
+struct GltfParts {
+  std::string json;         // without meshes, images, materials, extras and extensions
+  std::string_view binary;  // the binary chunk; empty where there is none
+  // VRM bones and their nodes, as VRM 0, VRM 1 and VRM animations say them; empty elsewhere.
+  std::vector<std::pair<std::string, int>> bones;
+};
+
+// `file` is only for messages. JSON nests 32 deep at most.
+Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file);
+
+}  // namespace ringcraft

@@ -1,0 +1,32 @@
+#include "capture/read_capture.h"
+
+#include "capture/amc.h"
+#include "capture/bvh.h"
+#include "capture/gltf.h"
+#include "capture/words.h"
+
+namespace ringcraft {
+
+Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source) {
+  const std::string kind = lowered(path.extension().string());
+  const bool acclaim = kind == ".amc";
+  const bool gltf = kind == ".gltf" || kind == ".glb" || kind == ".vrm" || kind == ".vrma";
+  if (kind == ".asf")
+    return input_error(path.string(), "", "a skeleton without motion", "give its .amc file");
+  if (!acclaim && !gltf && kind != ".bvh")
+    return input_error(path.string(), "", "no capture by its extension",
+                       "give a .bvh, .amc, .gltf, .glb, .vrm or .vrma file");
+  if (!acclaim && (!source.skeleton.empty() || source.frames_per_second))
+    return input_error(path.string(), "", "skeleton and frame_rate go with .amc files only",
+                       "take them out");
+  if (!gltf && !source.clip.empty())
+    return input_error(path.string(), "", "this format holds one motion, no clips by name",
+                       "take clip out");
+  if (gltf) return read_gltf(path, source.clip);
+  if (!acclaim) return read_bvh(path);
+  auto skeleton = source.skeleton.empty() ? skeleton_beside(path) : source.skeleton;
+  if (!skeleton) return tl::unexpected(skeleton.error());
+  return read_asf_amc(*skeleton, path, source.frames_per_second.value_or(kAcclaimRate));
+}
+
+}  // namespace ringcraft
