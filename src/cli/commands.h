@@ -28,8 +28,12 @@ struct HitOptions {
   std::string body = "middleweight";
   std::string pose = "idle_guard_bounce@0.1";
   std::string part = "head";
-  std::vector<float> impulse = {0, 0, -26};
+  std::string impulse = "0,0,-26";
   float tone = 1;
+  std::string strike;                   // an action instead of the impulse
+  std::string attacker;                 // its body; empty: as `body`
+  std::optional<float> distance;        // m between the two
+  std::vector<std::string> sweep = {};  // AXIS=FROM:TO:STEP
 };
 
 // Set by SIGINT and SIGTERM.
@@ -40,6 +44,7 @@ int fail(const Error& error);
 
 int run_fight(const std::string& scene, const CommonOptions& options);
 int run_hit(const HitOptions& hit, const CommonOptions& options);
+int run_replay(const std::string& events_file, const CommonOptions& options);
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);
 int run_schema(const std::string& name);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,12 +8,14 @@
 #include "capture/library_file.h"
 #include "cli/commands.h"
 #include "io/outputs.h"
+#include "scene/hit_map.h"
 #include "scene/scene_file.h"
-#include "scene/single_hit.h"
 
 namespace ringcraft {
 
 namespace {
+
+const Vec3 kAttackerColour{0.02f, 0.06f, 0.3f};  // linear RGB
 
 Result<Part> part_named(const std::string& name) {
   std::string known;
@@ -23,11 +26,25 @@ Result<Part> part_named(const std::string& name) {
   return usage_error("", "--part", fmt::format("no body part '{}'", name), "one of " + known);
 }
 
-Result<Vec3> impulse_from(const std::vector<float>& numbers) {
-  const Vec3 impulse{numbers[0], numbers[1], numbers[2]};
+// "x,y,z" in N s.
+Result<Vec3> impulse_from(const std::string& text) {
+  Vec3 impulse{};
+  const char* at = text.c_str();
+  int numbers = 0;
+  for (; numbers < 3; ++numbers) {
+    char* rest = nullptr;
+    impulse[numbers] = std::strtof(at, &rest);
+    if (rest == at) break;
+    at = rest;
+    if (numbers < 2 && *at++ != ',') break;
+  }
+  if (numbers < 3 || *at != '\0') {
+    return usage_error("", "--impulse", fmt::format("'{}' is not three numbers", text),
+                       "give X,Y,Z in N s along the fighter's left, up and fore, as in 0,0,-26");
+  }
   if (!std::isfinite(impulse.x + impulse.y + impulse.z) || glm::length(impulse) > 2000) {
     return usage_error("", "--impulse", "not a finite impulse of at most 2000 N s",
-                       "give x,y,z in N s, the fighter's left, up and fore");
+                       "give X,Y,Z in N s");
   }
   return impulse;
 }
@@ -48,65 +65,159 @@ Result<std::pair<std::string, double>> pose_from(const std::string& text) {
                      "as in cross@0.2");
 }
 
-nlohmann::json numbers_of(const HitAnswer& answer) {
+nlohmann::json vector_of(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json numbers_of(const HitQuery& query, const HitAnswer& answer) {
   const ImpactOutcome& outcome = answer.outcome;
-  return {{"response", name_of(outcome.response)},
-          {"action", answer.response},
-          {"steps", outcome.steps},
-          {"direction_rad", outcome.direction},
-          {"knockout", outcome.knockout},
-          {"head_spin_rad_s", outcome.head_spin},
-          {"margin_m", outcome.margin},
-          {"com_velocity_mps",
-           {outcome.com_velocity.x, outcome.com_velocity.y, outcome.com_velocity.z}},
-          {"impulse_Ns", glm::length(answer.input.blow.impulse)},
-          {"part", name_of(answer.input.blow.part)},
-          {"hit_s", seconds(answer.hit_tick)}};
+  const Blow& blow = answer.input.blow;
+  nlohmann::json numbers = {{"response", name_of(outcome.response)},
+                            {"action", answer.response},
+                            {"steps", outcome.steps},
+                            {"direction_rad", outcome.direction},
+                            {"knockout", outcome.knockout},
+                            {"head_spin_rad_s", outcome.head_spin},
+                            {"margin_m", outcome.margin},
+                            {"com_velocity_mps", vector_of(outcome.com_velocity)},
+                            {"impulse_Ns", glm::length(blow.impulse)},
+                            {"impulse", vector_of(blow.impulse)},
+                            {"point", vector_of(blow.point)},
+                            {"part", name_of(blow.part)},
+                            {"tone", answer.input.tone},
+                            {"pose", query.action},
+                            {"pose_s", answer.at_s},
+                            {"hit_s", seconds(answer.hit_tick)}};
+  if (!query.strike.empty()) {
+    numbers["strike"] = query.strike;
+    numbers["distance_m"] = answer.distance;
+    numbers["speed_mps"] = blow.speed;
+    numbers["effective_mass_kg"] = blow.effective_mass;
+    numbers["blocked"] = blow.blocked;
+  }
+  return numbers;
+}
+
+std::string sentence_of(const HitQuery& query, const HitAnswer& answer) {
+  const ImpactOutcome& outcome = answer.outcome;
+  const Blow& blow = answer.input.blow;
+  std::string text;
+  if (!query.strike.empty()) {
+    text =
+        fmt::format("{} from {:.2f} m {} the {}: {:.1f} m/s, {:.1f} kg, {:.0f} N s; ", query.strike,
+                    answer.distance, blow.blocked ? "is blocked by" : "meets", name_of(blow.part),
+                    blow.speed, blow.effective_mass, glm::length(blow.impulse));
+  }
+  return text + fmt::format("{} ({}), head {:.1f} rad/s, {:+.0f} cm beyond the base of support",
+                            answer.response, name_of(outcome.response), outcome.head_spin,
+                            outcome.margin * 100);
+}
+
+Result<BodySpec> body_named(const std::string& name) {
+  return read_body(assets_folder() / "bodies" / (name + ".toml"));
+}
+
+Result<HitQuery> query_from(const HitOptions& hit) {
+  HitQuery query;
+  const auto part = part_named(hit.part);
+  if (!part) return tl::unexpected(part.error());
+  query.part = *part;
+  const auto impulse = impulse_from(hit.impulse);
+  if (!impulse) return tl::unexpected(impulse.error());
+  query.impulse = *impulse;
+  const auto pose = pose_from(hit.pose);
+  if (!pose) return tl::unexpected(pose.error());
+  std::tie(query.action, query.at_s) = *pose;
+  query.tone = hit.tone;
+  const auto body = body_named(hit.body);
+  if (!body) return tl::unexpected(body.error());
+  query.body = *body;
+  query.strike = hit.strike;
+  const auto attacker = body_named(hit.attacker.empty() ? hit.body : hit.attacker);
+  if (!attacker) return tl::unexpected(attacker.error());
+  query.attacker = *attacker;
+  if (hit.distance && !(*hit.distance >= 0 && *hit.distance <= 10)) {
+    return usage_error("", "--distance", fmt::format("{} m", *hit.distance), "give 0 to 10 m");
+  }
+  query.distance = hit.distance;
+  return query;
+}
+
+using Files = std::vector<std::pair<std::string, std::string>>;  // name, bytes
+
+Result<void> write_files(const std::filesystem::path& folder, const Files& files) {
+  if (auto made = make_output_folder(folder); !made) return made;
+  for (const auto& [name, bytes] : files) {
+    if (auto written = write_file(folder / name, bytes); !written) return written;
+  }
+  return {};
+}
+
+int run_sweep(const MotionLibrary& library, const HitQuery& query, const HitOptions& hit,
+              const CommonOptions& options, const std::filesystem::path& folder) {
+  std::vector<SweepRange> ranges;
+  for (const std::string& text : hit.sweep) {
+    auto range = sweep_range(text);
+    if (!range) return fail(range.error());
+    ranges.push_back(std::move(*range));
+  }
+  SweepOptions settings;
+  settings.threads = options.threads;
+  settings.interrupted = &interrupted;
+  if (!options.quiet) {
+    settings.progress = [](std::size_t done, std::size_t all) {
+      if (done % 100 == 0 || done == all) fmt::print(stderr, "\r{} of {} hits", done, all);
+    };
+  }
+  const auto sweep = sweep_hits(library, query, std::move(ranges), settings);
+  if (!sweep) return fail(sweep.error());
+  if (!options.quiet) fmt::print(stderr, "\n");
+  const std::string json = sweep_json(*sweep);
+  const auto written = write_files(folder, {{"hit_sweep.csv", sweep_csv(*sweep)},
+                                            {"hit_sweep.json", json + "\n"},
+                                            {"hit_sweep.svg", sweep_svg(*sweep)}});
+  if (!written) return fail(written.error());
+  if (options.json) {
+    fmt::print("{}\n", json);
+  } else {
+    fmt::print("{} hits; open {}\n", sweep->points.size(), (folder / "hit_sweep.svg").string());
+  }
+  return sweep->interrupted ? 130 : 0;
 }
 
 }  // namespace
 
 int run_hit(const HitOptions& hit, const CommonOptions& options) {
-  HitQuery query;
-  const auto part = part_named(hit.part);
-  if (!part) return fail(part.error());
-  query.part = *part;
-  const auto impulse = impulse_from(hit.impulse);
-  if (!impulse) return fail(impulse.error());
-  query.impulse = *impulse;
-  const auto pose = pose_from(hit.pose);
-  if (!pose) return fail(pose.error());
-  std::tie(query.action, query.at_s) = *pose;
-  query.tone = hit.tone;
-  const auto body = read_body(assets_folder() / "bodies" / (hit.body + ".toml"));
-  if (!body) return fail(body.error());
-  query.body = *body;
+  const auto query = query_from(hit);
+  if (!query) return fail(query.error());
   const auto library = load_library(hit.library);
   if (!library) return fail(library.error());
-  const auto answer = simulate_hit(*library, query);
+  const std::filesystem::path folder = options.out.empty() ? "out/hit" : options.out;
+  if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, folder);
+  const auto answer = simulate_hit(*library, *query);
   if (!answer) return fail(answer.error());
 
-  const nlohmann::json numbers = numbers_of(*answer);
-  const std::filesystem::path folder = options.out.empty() ? "out/hit" : options.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
-  const std::vector<FighterLook> looks = {{query.body.name, answer->body}};
+  const nlohmann::json numbers = numbers_of(*query, *answer);
+  std::vector<FighterLook> looks = {{query->body.name, answer->bodies[0]}};
+  if (answer->bodies.size() > 1) {
+    looks.push_back({query->attacker.name + " (attacker)", answer->bodies[1], kAttackerColour,
+                     kAttackerColour});
+  }
+  const nlohmann::json header = {{"scene", "hit"}, {"version", RINGCRAFT_VERSION}};
   const std::string glb = fight_glb(answer->timeline, looks);
-  const std::string events = events_jsonl(answer->timeline, looks, {{"scene", "hit"}});
+  const std::string events = events_jsonl(answer->timeline, looks, header);
   const auto page =
       fight_html(glb, events, {{"scene", "hit"}, {"duration_s", seconds(answer->timeline.end)}});
   if (!page) return fail(page.error());
-  for (const auto& [name, bytes] : {std::pair<const char*, const std::string&>{"hit.glb", glb},
-                                    {"hit.html", *page},
-                                    {"hit.json", numbers.dump(1) + "\n"}}) {
-    if (const auto written = write_file(folder / name, bytes); !written)
-      return fail(written.error());
-  }
+  const auto written = write_files(folder, {{"hit.glb", glb},
+                                            {"hit.html", *page},
+                                            {"events.jsonl", events},
+                                            {"hit.json", numbers.dump(1) + "\n"}});
+  if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}\n", numbers.dump(1));
   } else {
-    fmt::print("{} ({}), head {:.1f} rad/s, {:+.0f} cm beyond the base of support; open {}\n",
-               answer->response, name_of(answer->outcome.response), answer->outcome.head_spin,
-               answer->outcome.margin * 100, (folder / "hit.html").string());
+    fmt::print("{}; open {}\n", sentence_of(*query, *answer), (folder / "hit.html").string());
   }
   return 0;
 }

@@ -42,6 +42,9 @@ int run(int argc, char** argv) {
   CLI::App app("Fights in which hits are physical.", "ringcraft");
   app.set_version_flag("--version", RINGCRAFT_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("ringcraft: {}; `ringcraft --help` says what there is\n", error.what());
+  });
   CommonOptions options;
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int code = 0;
@@ -59,14 +62,29 @@ int run(int argc, char** argv) {
       ->type_name("ACTION@S");
   hit->add_option("--part", hit_options.part, "Struck body part");
   hit->add_option("--impulse", hit_options.impulse, "N s along the fighter's left, up and fore")
-      ->type_name("X,Y,Z")
-      ->delimiter(',')
-      ->expected(3);
+      ->type_name("X,Y,Z");
+  hit->add_option("--strike", hit_options.strike, "A blow of a placed attacker, not an impulse")
+      ->type_name("ACTION")
+      ->excludes("--impulse");
+  hit->add_option("--attacker", hit_options.attacker, "Body of the attacker")->needs("--strike");
+  hit->add_option("--distance", hit_options.distance, "m between the two, else where it lands best")
+      ->needs("--strike");
+  hit->add_option("--sweep", hit_options.sweep, "A map over impulse (N s), direction (deg) or tone")
+      ->type_name("AXIS=FROM:TO:STEP")
+      ->excludes("--strike")
+      ->take_all();
   hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(CLI::Range(0.0, 1.0));
   hit->add_option("--body", hit_options.body, "A file of assets/bodies");
   hit->add_option("--library", hit_options.library, "Motion library");
   add_common(*hit, options);
   hit->callback([&] { code = run_hit(hit_options, options); });
+
+  std::string events_file;
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");
+  replay->add_option("EVENTS", events_file, "An events.jsonl")->required();
+  add_common(*replay, options);
+  replay->callback([&] { code = run_replay(events_file, options); });
 
   std::string library_name = "kickboxing";
   CLI::App* library = app.add_subcommand("library", "Look into a motion library");

@@ -69,6 +69,7 @@ struct Event {
   float direction = 0;  // world yaw in which the body goes, rad
   bool knockout = false;
   bool foreseen = false;  // the tree foresaw this hit with the same response
+  std::string replay;     // what recomputes this hit, opaque (scene/hit_replay.h); not hashed
   DecisionRecord decision;
 };
 

@@ -103,6 +103,7 @@ json event_json(const Event& event, bool with_lines) {
     case EventType::block:
       add_contact(object, event);
       add_response(object, event);
+      if (with_lines && !event.replay.empty()) object["replay"] = event.replay;
       break;
     case EventType::response:
     case EventType::knockdown:

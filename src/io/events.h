@@ -5,7 +5,7 @@
 // action. strike    + strike (kind) hit, block + strike, part, point [x, y, z] m, impulse [x, y, z]
 // N s, impulse_Ns, speed_mps,
 //             effective_mass_kg, head_spin_radps, damage, response, steps, direction_rad, knockout,
-//             foreseen
+//             foreseen, and with lines: replay (what recomputes the hit, base64)
 // response, knockdown, getup + response, steps, direction_rad, knockout
 // decision  + nodes, leaves, forced_nodes, pruned{...}, chosen, and with lines: lines[]{score,
 // moves[]{who,

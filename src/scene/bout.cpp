@@ -9,6 +9,7 @@
 #include "physics/impact.h"
 #include "physics/penetration.h"
 #include "scene/answer.h"
+#include "scene/hit_replay.h"
 
 namespace ringcraft {
 
@@ -271,6 +272,8 @@ void Bout::commit_touch(const Touch& touch) {
   record_.impulse_step_us.push_back(microseconds_since(begin));
   ++record_.counts.impacts;
   record_.counts.impulse_sum_Ns += glm::length(input.blow.impulse);
+  Event event;
+  event.replay = replay_text(stage_.body(target), input, outcome, fighter(target).health);
 
   // 2. What it costs. Nobody stands without health.
   const std::int32_t damage = damage_of(input.blow, outcome);
@@ -281,7 +284,6 @@ void Bout::commit_touch(const Touch& touch) {
   }
 
   // 3. The record, and the response as the struck fighter's next action.
-  Event event;
   event.tick = state_.now;
   event.type = touch.contact.blocked ? EventType::block : EventType::hit;
   event.who = attacker;

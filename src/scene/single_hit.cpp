@@ -1,10 +1,13 @@
 #include "scene/single_hit.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "scene/answer.h"
+#include "scene/hit_replay.h"
+#include "scene/placed_strike.h"
 #include "scene/stage.h"
 
 namespace ringcraft {
@@ -12,7 +15,10 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kAfterwards = kTicksPerSecond;  // shown after the response
-constexpr FighterId kOnly{0};
+constexpr FighterId kStruck{0}, kAttacker{1};
+constexpr float kFacingTurn = radians(15);  // most, toward the other, in one idle
+constexpr std::size_t kMostTried = 40;      // places whose whole motion is tried
+constexpr std::int32_t kNoHealth = std::numeric_limits<std::int32_t>::max();  // none is counted
 
 // Where the impulse meets the part: on its surface, on the side it comes from.
 Vec3 point_of(const BodyModel& body, const Pose& pose, Part part, Vec3 impulse) {
@@ -31,94 +37,302 @@ ActionId resting_action(const MotionLibrary& library, ActionId after) {
   return library.machine().edges(after).front().to;
 }
 
-void show_to(Stage& stage, Tick& now, Tick end) {
-  while (now < end) {
-    stage.show(++now);
-    stage.keep_out_and_record();
+// Who is on stage, and what each does when nothing else is asked of it.
+class Showing {
+ public:
+  Showing(const MotionLibrary& library, std::vector<BodyModel> bodies)
+      : library_(library), stage_(library, std::move(bodies)) {}
+
+  Stage& stage() { return stage_; }
+  Tick now() const { return now_; }
+
+  void begin(FighterId id, ActionId action, Tick start, const Placement& placement) {
+    Launch launch;
+    launch.action = action;
+    launch.start = start;
+    launch.end = start + library_.action(action).length();
+    launch.placement = placement;
+    stage_.begin(id, launch);
   }
-}
 
-}  // namespace
+  // Shows one tick, up to where contacts are looked for; `settle` completes it.
+  void show_next() {
+    ++now_;
+    for (std::size_t i = 0; i < stage_.size(); ++i) go_on(FighterId(i));
+    stage_.show(now_);
+  }
+  void show_first() { stage_.show(0); }
+  void settle() { stage_.keep_out_and_record(); }
+  void show_to(Tick end) {
+    while (now_ < end) {
+      show_next();
+      settle();
+    }
+  }
 
-Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& query) {
+  ImpactInput input_of(FighterId id, std::vector<Pose>& continued) const {
+    const Launch& launch = stage_.launch(id);
+    ImpactInput input;
+    input.pose = stage_.shown(id);
+    input.pose_before = stage_.shown_before(id);
+    input.contacts = library_.action(launch.action).clip.contacts_at(now_ - launch.start);
+    continued = stage_.continued(id, now_, kImpulseStepTicks + 2);
+    input.continued = continued;
+    return input;
+  }
+
+  float facing(FighterId id) const {
+    return root_at(library_, stage_.launch(id), now_, stage_.body(id).scale).yaw;
+  }
+
+  // Shows the response to its end, a get-up after a fall, and a moment more.
+  void show_answer(Answer answer, const ImpactOutcome& outcome) {
+    lies_ = outcome.knockout;
+    const Tick end = answer.launch.end;
+    stage_.begin(kStruck, answer.launch, std::move(answer.simulated));
+    settle();
+    show_to(end);
+    if (outcome.response == ResponseKind::knockdown && !outcome.knockout) {
+      const Launch up = get_up_from(library_, stage_.body(kStruck), stage_.launch(kStruck), now_,
+                                    stage_.shown(kStruck));
+      stage_.begin(kStruck, up);
+      show_to(up.end);
+    }
+    show_to(now_ + kAfterwards);
+  }
+
+ private:
+  // Rests where its action is over.
+  void go_on(FighterId id) {
+    const Launch last = stage_.launch(id);
+    const Tick shown = now_ - 1;
+    if (shown < last.end || (id == kStruck && lies_)) return;
+    if (library_.machine().edges(last.action).empty()) return;
+    if (library_.action(last.action).ends_lying != Lying::none) return;  // somebody gets it up
+    const float scale = stage_.body(id).scale;
+    const Placement root = root_at(library_, last, shown, scale);
+    Vec3 ahead = root * kForward;
+    if (stage_.size() > 1) ahead = stage_.shown(FighterId(1 - id.at())).hips;
+    stage_.begin(id, following(library_, last, resting_action(library_, last.action), shown, ahead,
+                               scale, stage_.size() > 1 ? kFacingTurn : 0));
+  }
+
+  const MotionLibrary& library_;
+  Stage stage_;
+  Tick now_ = 0;
+  bool lies_ = false;
+};
+
+struct Interrupted {
+  ActionId action;
+  Tick at = 0;
+};
+
+Result<Interrupted> interrupted_action(const MotionLibrary& library, const HitQuery& query) {
   const ActionId action = library.find(query.action);
   if (!action.valid()) {
     return usage_error("", "--pose",
                        fmt::format("no action '{}' in library {}", query.action, library.name()),
                        "`ringcraft library inspect` lists them");
   }
-  const Tick at = ticks(query.at_s);
-  if (at < 0 || at > library.action(action).length()) {
-    return usage_error("", "--pose",
-                       fmt::format("{} s is outside {}, which lasts {:.2f} s", query.at_s,
-                                   query.action, seconds(library.action(action).length())),
-                       "give a time inside it");
+  const double length = seconds(library.action(action).length());
+  if (!(query.at_s >= 0 && query.at_s <= length)) {
+    return usage_error(
+        "", "--pose",
+        fmt::format("{} s is outside {}, which lasts {:.2f} s", query.at_s, query.action, length),
+        "give a time inside it");
   }
-  HitAnswer answer;
-  answer.body = make_body(query.body);
-  Stage stage(library, {answer.body});
-  Launch launch;
-  launch.action = action;
-  launch.end = library.action(action).length();
-  Tick now = 0;
-  stage.begin(kOnly, launch);
-  stage.show(0);
-  stage.keep_out_and_record();
-  show_to(stage, now, at);
+  return Interrupted{action, ticks(query.at_s)};
+}
 
-  ImpactInput& input = answer.input;
-  input.pose = stage.shown(kOnly);
-  input.pose_before = stage.shown_before(kOnly);
-  input.tone = query.tone;
-  input.contacts = library.action(action).clip.contacts_at(at);
-  input.blow.part = query.part;
-  input.blow.impulse = query.impulse;
-  input.blow.point = point_of(answer.body, input.pose, query.part, query.impulse);
-  const std::vector<Pose> continued = stage.continued(kOnly, now, kImpulseStepTicks + 2);
-  input.continued = continued;
-  answer.hit_tick = now;
-  answer.outcome = impulse_step(answer.body, input);
-
-  Answer shown = answer_to(library, answer.body, launch, now, input, answer.outcome);
-  answer.response = library.action(shown.launch.action).name;
-  Launch last = shown.launch;
-  stage.begin(kOnly, last, std::move(shown.simulated));
-  show_to(stage, now, last.end);
-  if (answer.outcome.response == ResponseKind::knockdown && !answer.outcome.knockout) {
-    last = get_up_from(library, answer.body, last, now, stage.shown(kOnly));
-    stage.begin(kOnly, last);
-    show_to(stage, now, last.end);
-  }
-  if (!answer.outcome.knockout) {
-    const Vec3 ahead = root_at(library, last, now, answer.body.scale) * kForward;
-    stage.begin(kOnly, following(library, last, resting_action(library, last.action), now, ahead,
-                                 answer.body.scale, 0));
-  }
-  show_to(stage, now, now + kAfterwards);
+// What happens once the hit is known: the impulse step, the response, the record.
+void finish(const MotionLibrary& library, const HitQuery& query, Showing& showing,
+            ImpactInput& input, HitAnswer& answer) {
+  const Launch cut = showing.stage().launch(kStruck);
+  const BodyModel& body = answer.bodies.front();
+  answer.hit_tick = showing.now();
+  answer.at_s = static_cast<float>(seconds(answer.hit_tick - cut.start));
+  answer.outcome = impulse_step(body, input);
 
   Event event;
   event.tick = answer.hit_tick;
-  event.type = EventType::hit;
-  event.who = kOnly;
-  event.whom = kOnly;
-  event.action = query.action;
-  event.part = std::string(name_of(query.part));
+  event.type = input.blow.blocked ? EventType::block : EventType::hit;
+  event.who = query.strike.empty() ? kStruck : kAttacker;
+  event.whom = kStruck;
+  event.action = query.strike.empty() ? query.action : query.strike;
+  event.part = std::string(name_of(input.blow.part));
+  if (!query.strike.empty()) {
+    event.strike = library.action(library.find(query.strike)).strikes.front().kind;
+  }
   event.point = input.blow.point;
-  event.impulse = query.impulse;
+  event.impulse = input.blow.impulse;
+  event.speed = input.blow.speed;
+  event.effective_mass = input.blow.effective_mass;
   event.head_spin = answer.outcome.head_spin;
+  event.damage = static_cast<float>(damage_of(input.blow, answer.outcome)) / 1000;
   event.response = answer.outcome.response;
   event.steps = answer.outcome.steps;
   event.direction = answer.outcome.direction;
   event.knockout = answer.outcome.knockout;
+  event.replay = replay_text(body, input, answer.outcome, kNoHealth);
   answer.timeline.events.push_back(event);
-  event.type =
-      event.response == ResponseKind::knockdown ? EventType::knockdown : EventType::response;
-  event.action = answer.response;
-  answer.timeline.events.push_back(event);
-  answer.timeline.end = now;
-  answer.timeline.tracks = stage.take_tracks();
+
+  // A guard that holds a blow answers by going on.
+  if (input.blow.blocked && answer.outcome.response == ResponseKind::absorb) {
+    answer.response = query.action;
+    showing.settle();
+    showing.show_to(showing.now() + kAfterwards);
+  } else {
+    Answer shown = answer_to(library, body, cut, showing.now(), input, answer.outcome);
+    answer.response = library.action(shown.launch.action).name;
+    event.type =
+        event.response == ResponseKind::knockdown ? EventType::knockdown : EventType::response;
+    event.who = kStruck;
+    event.whom = {};
+    event.action = answer.response;
+    answer.timeline.events.push_back(event);
+    showing.show_answer(std::move(shown), answer.outcome);
+  }
+  answer.timeline.end = showing.now();
+  answer.timeline.tracks = showing.stage().take_tracks();
+  answer.input = input;
   answer.input.continued = {};
+}
+
+// The stage with the body at its pose, contacts of this tick not yet settled.
+void show_pose(Showing& showing, const Interrupted& cut) {
+  showing.begin(kStruck, cut.action, 0, {});
+  showing.show_first();
+  while (showing.now() < cut.at) {
+    showing.settle();
+    showing.show_next();
+  }
+}
+
+// Tries one place in the whole motion. Nothing where the blow does not meet as wished after all.
+std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuery& query,
+                                     const Interrupted& cut, const StrikePlace& place, Met least) {
+  HitAnswer answer;
+  answer.bodies = {make_body(query.body), make_body(query.attacker)};
+  const ActionId attack = library.find(query.strike);
+  const Strike& strike = library.action(attack).strikes.front();
+  const Tick hit = std::max(cut.at, place.age);
+  Launch target;
+  target.action = cut.action;
+  const Placement root = root_at(library, target, cut.at, answer.bodies[0].scale);
+
+  Showing showing(library, answer.bodies);
+  Stage& stage = showing.stage();
+  const Tick attack_start = hit - place.age;
+  showing.begin(kStruck, cut.action, hit - cut.at, {});
+  showing.begin(kAttacker, attack, attack_start, attacker_placement(root, place.distance));
+  showing.show_first();
+  while (showing.now() < attack_start + strike.active_end - 1) {
+    showing.settle();
+    showing.show_next();
+    const Tick age = showing.now() - attack_start;
+    const auto contact = age >= strike.active_begin
+                             ? strike_contact(stage.swept(kAttacker), strike, stage.swept(kStruck))
+                             : std::nullopt;
+    if (!contact) continue;
+    if (met_by(*contact, strike, query.part) > least) return std::nullopt;
+    std::vector<Pose> continued;
+    ImpactInput input = showing.input_of(kStruck, continued);
+    input.tone = query.tone;
+    input.blow = blow_of(answer.bodies[1], stage.shown(kAttacker), answer.bodies[0], input.pose,
+                         *contact, strike.kind);
+    answer.distance = place.distance;
+    finish(library, query, showing, input, answer);
+    return answer;
+  }
+  return std::nullopt;
+}
+
+Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& query,
+                                  const Interrupted& cut) {
+  const ActionId attack = library.find(query.strike);
+  if (!attack.valid() || library.action(attack).strikes.empty()) {
+    return usage_error(
+        "", "--strike",
+        fmt::format("{} '{}' in library {}", attack.valid() ? "no blow in the action" : "no action",
+                    query.strike, library.name()),
+        "`ringcraft library inspect` lists the attacks");
+  }
+  const BodyModel target = make_body(query.body), attacker = make_body(query.attacker);
+  const StrikeQuery where{library, target, attacker, cut.action, cut.at, attack};
+  const Strike& strike = library.action(attack).strikes.front();
+  struct Candidate {
+    Met met;
+    float speed;
+    StrikePlace place;
+  };
+  std::vector<Candidate> candidates;
+  const std::vector<StrikePlace> places = strike_places(where, query.distance);
+  for (const StrikePlace& place : places) {
+    const Met met = met_by(place.contact, strike, query.part);
+    if (met == Met::anything && !query.distance) continue;
+    candidates.push_back({met, -glm::dot(place.contact.velocity, place.contact.normal), place});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.met != b.met ? a.met < b.met : a.speed > b.speed;
+  });
+  if (candidates.size() > kMostTried) candidates.resize(kMostTried);
+  for (const Candidate& c : candidates) {
+    const Met least = query.distance ? Met::anything : c.met;
+    if (auto answer = strike_from(library, query, cut, c.place, least)) return std::move(*answer);
+  }
+  const std::string all = met_parts(query.distance ? strike_places(where, {}) : places);
+  const std::string from = query.distance
+                               ? fmt::format("from {} m", *query.distance)
+                               : fmt::format("from any distance up to {} m", kFarthestPlace);
+  return usage_error(
+      "", "--strike",
+      fmt::format("{} does not land on the {} of {} at {:.2f} s {}", query.strike,
+                  query.distance ? "body" : name_of(query.part), query.action, query.at_s, from),
+      all.empty() ? "it meets nothing of that pose; choose another one" : "it meets " + all);
+}
+
+}  // namespace
+
+Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& query) {
+  const auto cut = interrupted_action(library, query);
+  if (!cut) return tl::unexpected(cut.error());
+  if (!query.strike.empty()) return simulate_strike(library, query, *cut);
+  HitAnswer answer;
+  answer.bodies = {make_body(query.body)};
+  Showing showing(library, answer.bodies);
+  show_pose(showing, *cut);
+  std::vector<Pose> continued;
+  ImpactInput input = showing.input_of(kStruck, continued);
+  input.tone = query.tone;
+  input.blow.part = query.part;
+  input.blow.impulse = yaw_rotation(showing.facing(kStruck)) * query.impulse;
+  input.blow.point = point_of(answer.bodies[0], input.pose, query.part, input.blow.impulse);
+  finish(library, query, showing, input, answer);
   return answer;
+}
+
+Result<PosedBody> posed_body(const MotionLibrary& library, const HitQuery& query) {
+  const auto cut = interrupted_action(library, query);
+  if (!cut) return tl::unexpected(cut.error());
+  PosedBody posed;
+  posed.body = make_body(query.body);
+  Showing showing(library, {posed.body});
+  show_pose(showing, *cut);
+  posed.input = showing.input_of(kStruck, posed.continued);
+  posed.input.continued = {};
+  posed.facing = showing.facing(kStruck);
+  return posed;
+}
+
+ImpactInput with_impulse(const PosedBody& posed, Part part, Vec3 impulse, float tone) {
+  ImpactInput input = posed.input;
+  input.continued = posed.continued;
+  input.tone = tone;
+  input.blow.part = part;
+  input.blow.impulse = yaw_rotation(posed.facing) * impulse;
+  input.blow.point = point_of(posed.body, input.pose, part, input.blow.impulse);
+  return input;
 }
 
 }  // namespace ringcraft

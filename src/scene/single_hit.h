@@ -1,7 +1,10 @@
 #pragma once
-// One hit on one body: a pose, an impulse, the response, as numbers and as a timeline to look at.
+// One hit on one body: a pose, an impulse or a blow of a placed attacker, the response, as numbers
+// and as a timeline to look at.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "fight/timeline.h"
@@ -16,18 +19,37 @@ struct HitQuery {
   Part part = Part::head;
   Vec3 impulse{};     // N s, in the fighter's own axes: x to its left, y up, z the way it faces
   float tone = 1.0f;  // 0 limp .. 1 full
+
+  std::string strike;             // an attack instead of the impulse: its first blow meets the part
+  BodySpec attacker;              // who throws it
+  std::optional<float> distance;  // m between the two roots at the hit; else where it lands best
 };
 
 struct HitAnswer {
-  ImpactInput input;      // without `continued`
-  ImpactOutcome outcome;  // its direction is a world yaw; the fighter faces +Z
-  std::string response;   // the action that answers
-  Timeline timeline;      // the action, the hit, the response and the guard again
-  BodyModel body;
+  ImpactInput input;              // without `continued`
+  ImpactOutcome outcome;          // its direction is a world yaw; the fighter starts facing +Z
+  std::string response;           // the action that answers; the interrupted one where a guard held
+  Timeline timeline;              // the action, the hit, the response and the guard again
+  std::vector<BodyModel> bodies;  // the struck one, then the attacker where there is one
   Tick hit_tick = 0;
+  float at_s = 0;      // seconds into the interrupted action at the hit
+  float distance = 0;  // m between the roots of the two; 0 without an attacker
 };
 
-// An unknown action or a time outside it is a usage error.
+// An unknown action, a time outside it, or a blow that cannot land is a usage error.
 Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& query);
+
+// A body on which many impulses can be tried.
+struct PosedBody {
+  BodyModel body;
+  ImpactInput input;  // without blow, tone and `continued`
+  std::vector<Pose> continued;
+  float facing = 0;  // rad: world yaw of its own fore
+};
+Result<PosedBody> posed_body(const MotionLibrary& library, const HitQuery& query);
+
+// What an impulse on the middle of a part, on the side that it comes from, does to the posed body.
+// `impulse` in the fighter's own axes, N s.
+ImpactInput with_impulse(const PosedBody& posed, Part part, Vec3 impulse, float tone);
 
 }  // namespace ringcraft
