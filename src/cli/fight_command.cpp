@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "base/file.h"
 #include "capture/library_file.h"
@@ -21,6 +22,10 @@ int run_fight(const std::string& scene_name, const CommonOptions& options) {
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   const auto library = load_library(scene->library);
   if (!library) return fail(library.error());
+
+  spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library->name(),
+               library->actions().size(), library->dropped().size(), library->hash());
+  for (const std::string& dropped : library->dropped()) spdlog::info("dropped {}", dropped);
 
   FightOptions fight_options;
   fight_options.threads = options.threads;

@@ -6,6 +6,8 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
@@ -103,6 +105,13 @@ int run(int argc, char** argv) {
   schema->add_option("NAME", schema_name, "scene, style, body, manifest, sheet or profile")
       ->required();
   schema->callback([&] { code = run_schema(schema_name); });
+
+  // Logs go to stderr, results to stdout or files.
+  app.parse_complete_callback([&] {
+    spdlog::set_default_logger(spdlog::stderr_logger_st("ringcraft"));
+    spdlog::set_pattern("%n: %v");
+    spdlog::set_level(options.verbose > 0 ? spdlog::level::info : spdlog::level::warn);
+  });
 
   try {
     app.parse(argc, argv);

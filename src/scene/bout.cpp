@@ -346,8 +346,8 @@ void Bout::note_foreseen(const Touch& touch, Event& event) {
   }
 }
 
-// Bodies that press into each other give way on the ground, each by half; a strike's own contact is
-// left to its impulse.
+// Bodies that press into each other give way on the ground, each by half, or the one that can by
+// all; a strike's own contact is left to its impulse.
 void Bout::push_apart() {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     for (std::size_t j = i + 1; j < state_.fighters.size(); ++j) {
@@ -361,9 +361,13 @@ void Bout::push_apart() {
                                                       excepted(a), excepted(b));
       if (deepest.depth <= kTouchingDepth) continue;
       const Vec3 apart = normalized_or(ground_position(b) - ground_position(a), kForward);
-      const float push = std::min(kMostPush, (deepest.depth - kTouchingDepth) * 0.5f);
+      const auto gives_way = [&](FighterId id) {
+        return !stage_.simulated(id) && !fighter(id).down();
+      };
+      const float shares = (gives_way(a) ? 1.0f : 0.0f) + (gives_way(b) ? 1.0f : 0.0f);
       for (const auto& [id, sign] : {std::pair{a, -1.0f}, std::pair{b, 1.0f}}) {
-        if (stage_.simulated(id) || fighter(id).down()) continue;
+        if (!gives_way(id)) continue;
+        const float push = std::min(kMostPush, (deepest.depth - kTouchingDepth) / shares);
         stage_.shift(id, apart * (push * sign));
         fighter(id).launch.placement = stage_.launch(id).placement;
       }
