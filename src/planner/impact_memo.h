@@ -16,10 +16,10 @@ namespace ringcraft {
 
 // Steps of the quantisation.
 struct MemoSteps {
-  Tick ticks = 4;        // of the victim's and the attacker's action
-  int azimuths = 12;     // directions of the blow around the victim, 30 degrees each
-  float speed = 0.5f;    // m/s
-  float impulse = 2.0f;  // N s
+  Tick ticks = 6;        // of the victim's and the attacker's action
+  int azimuths = 8;      // directions of the blow around the victim, 45 degrees each
+  float speed = 0.75f;   // m/s
+  float impulse = 3.0f;  // N s
 };
 
 // A landed blow as the tree meets it. Bodies are indices into the memo's tables.
