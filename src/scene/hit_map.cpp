@@ -88,7 +88,8 @@ std::string text_at(double x, double y, const std::string& anchor, const std::st
       anchor, size, escaped(text));
 }
 
-constexpr double kPanel = 560, kTop = 64, kLegend = 60;
+constexpr double kPanel = 600, kTop = 84, kLegend = 60;  // px
+constexpr double kSquare = 540, kStrip = 150;            // px: heights of a panel
 
 // One panel's values over two axes: points[row of `outer`][column of `inner`].
 struct Panel {
@@ -101,15 +102,15 @@ class Drawing {
  public:
   void panel(const Panel& panel, bool polar, double left) {
     left_ = left;
-    if (!panel.title.empty()) svg_ += text_at(left + kPanel / 2, kTop - 8, "middle", panel.title);
+    if (!panel.title.empty()) svg_ += text_at(left + kPanel / 2, kTop - 20, "middle", panel.title);
     polar ? draw_polar(panel) : draw_grid(panel);
   }
   const std::string& svg() const { return svg_; }
 
  private:
   void draw_polar(const Panel& panel) {
-    constexpr double kRadius = 215;
-    const double cx = left_ + kPanel / 2, cy = kTop + kPanel / 2;
+    constexpr double kRadius = 215;  // px
+    const double cx = left_ + kPanel / 2, cy = kTop + kSquare / 2 - 10;
     const std::vector<Span> ways = spans_of(panel.across.values, 30);
     const std::vector<Span> sizes = spans_of(panel.along.values, 10);
     const double most = sizes.back().to;
@@ -148,18 +149,19 @@ class Drawing {
       svg_ += ring_label(cx, cy, radius(mark), fmt::format("{:g}", mark));
     }
     for (int way = 0; way < 360; way += 45) {
-      static constexpr std::array<const char*, 8> kWays = {
-          "fore 0°", "45°", "own left 90°", "135°", "back 180°", "225°", "own right 270°", "315°"};
+      static constexpr std::array<const char*, 8> kWays = {"fore", "", "own left",  "",
+                                                           "back", "", "own right", ""};
       const double a = way * static_cast<double>(kPi) / 180;
-      const double x = cx - (kRadius + 10) * std::sin(a), y = cy - (kRadius + 10) * std::cos(a);
-      const char* anchor = way == 0 || way == 180 ? "middle" : way < 180 ? "end" : "start";
-      svg_ += text_at(x,
-                      y + (way == 180 ? 12
-                           : way == 0 ? 0
-                                      : 5),
-                      anchor, kWays[static_cast<std::size_t>(way / 45)], 12);
+      const double x = cx - (kRadius + 10) * std::sin(a);
+      const double y = cy - (kRadius + 18) * std::cos(a) + 4;
+      const char* anchor = way % 180 == 0 ? "middle" : way < 180 ? "end" : "start";
+      const std::string name = kWays[static_cast<std::size_t>(way / 45)];
+      const std::string degrees = fmt::format("{}°", way);
+      const bool beside = way % 180 != 0;
+      svg_ += text_at(x, y, anchor, beside || name.empty() ? degrees : name + " " + degrees, 12);
+      if (beside && !name.empty()) svg_ += text_at(x, y - 15, anchor, name, 12);
     }
-    svg_ += text_at(cx, cy + kRadius + 42, "middle",
+    svg_ += text_at(cx, cy + kRadius + 46, "middle",
                     "seen from above; outward: impulse (N s), around: where it pushes");
   }
 
@@ -177,7 +179,7 @@ class Drawing {
     constexpr double kLeft = 70, kRight = 20, kBelow = 60;
     const double x0 = left_ + kLeft, x1 = left_ + kPanel - kRight;
     const bool line = panel.along.values.size() == 1;  // one axis only: a strip
-    const double y1 = kTop + kPanel - kBelow, y0 = line ? y1 - 60 : kTop + 10;
+    const double y0 = kTop, y1 = kTop + (line ? kStrip : kSquare) - kBelow;
     const std::vector<Span> xs = spans_of(panel.across.values, 1);
     const std::vector<Span> ys = spans_of(panel.along.values, 1);
     const auto x = [&](double v) {
@@ -288,7 +290,7 @@ std::vector<Panel> panels_of(const HitSweep& sweep, const Order& order) {
   return panels;
 }
 
-std::string legend(const HitSweep& sweep, double width) {
+std::string legend(const HitSweep& sweep, double width, double y) {
   std::array<std::size_t, kLooks.size()> counts{};
   for (const SweepPoint& point : sweep.points) {
     if (point.done) ++counts[look_of(point.outcome)];
@@ -296,7 +298,6 @@ std::string legend(const HitSweep& sweep, double width) {
   std::string svg;
   const double each = 92;
   double x = std::max(8.0, (width - each * static_cast<double>(kLooks.size())) / 2);
-  const double y = kTop + kPanel + 16;
   for (std::size_t i = 0; i < kLooks.size(); ++i, x += each) {
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"14\" fill=\"{}\" "
@@ -315,7 +316,8 @@ std::string sweep_svg(const HitSweep& sweep) {
   const Order order = order_of(sweep);
   const std::vector<Panel> panels = panels_of(sweep, order);
   const double width = kPanel * static_cast<double>(panels.size());
-  const double height = kTop + kPanel + kLegend;
+  const double tall = order.along ? kSquare : kStrip;
+  const double height = kTop + tall + kLegend;
   Drawing drawing;
   double left = 0;
   for (const Panel& panel : panels) {
@@ -327,8 +329,9 @@ std::string sweep_svg(const HitSweep& sweep) {
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"Helvetica, Arial, sans-serif\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height);
-  svg += text_at(width / 2, 26, "middle", sweep.title, 14);
-  return svg + drawing.svg() + legend(sweep, width) + "</svg>\n";
+  svg += text_at(width / 2, 24, "middle", sweep.title, 14);
+  svg += text_at(width / 2, 43, "middle", sweep.what, 13);
+  return svg + drawing.svg() + legend(sweep, width, kTop + tall + 16) + "</svg>\n";
 }
 
 }  // namespace ringcraft

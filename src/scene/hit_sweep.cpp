@@ -79,6 +79,18 @@ std::vector<SweepPoint> points_of(const std::vector<SweepRange>& ranges, const S
   return points;
 }
 
+// ", tone 1" of an axis that no range varies.
+std::string fixed_text(const HitSweep& sweep, SweepAxis axis, const SweepPoint& fixed) {
+  for (const SweepRange& range : sweep.ranges) {
+    if (range.axis == axis) return "";
+  }
+  const double value = axis == SweepAxis::impulse     ? fixed.impulse
+                       : axis == SweepAxis::direction ? fixed.direction
+                                                      : fixed.tone;
+  return fmt::format(", {} {:g}{}{}", name_of(axis), value, unit_of(axis).empty() ? "" : " ",
+                     unit_of(axis));
+}
+
 nlohmann::json json_of(const HitSweep& sweep, const SweepPoint& point) {
   const ImpactOutcome& outcome = point.outcome;
   const double way = static_cast<double>(degrees(wrapped_angle(outcome.direction - sweep.facing)));
@@ -182,9 +194,11 @@ Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
   sweep.facing = posed->facing;
   sweep.points = points_of(ranges, fixed);
   sweep.ranges = std::move(ranges);
-  sweep.title = fmt::format("{}, {:.2f} m, {:.0f} kg: {} at {:.2f} s, pushed at the {}",
-                            query.body.name, query.body.height, query.body.mass, query.action,
-                            query.at_s, name_of(query.part));
+  sweep.title =
+      fmt::format("{}, {:.2f} m, {:.0f} kg", query.body.name, query.body.height, query.body.mass);
+  sweep.what = fmt::format("{} at {:.2f} s, pushed at the {}", query.action, query.at_s,
+                           name_of(query.part));
+  for (const SweepAxis axis : kAxes) sweep.what += fixed_text(sweep, axis, fixed);
   std::atomic<std::size_t> done = 0;
   run_tasks(sweep.points.size(), options.threads, [&](std::size_t i) {
     if (options.interrupted != nullptr && options.interrupted->load(std::memory_order_relaxed)) {
@@ -218,7 +232,8 @@ std::string sweep_csv(const HitSweep& sweep) {
 }
 
 std::string sweep_json(const HitSweep& sweep) {
-  nlohmann::json json = {{"what", sweep.title},
+  nlohmann::json json = {{"body", sweep.title},
+                         {"what", sweep.what},
                          {"interrupted", sweep.interrupted},
                          {"axes", nlohmann::json::array()},
                          {"points", nlohmann::json::array()}};

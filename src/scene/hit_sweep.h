@@ -36,7 +36,7 @@ struct HitSweep {
   std::vector<SweepPoint> points;
   float facing = 0;  // rad: world yaw of the body's own fore
   bool interrupted = false;
-  std::string title;  // which body, pose and part
+  std::string title, what;  // whose body; which pose and part, and what no range varies
 };
 
 struct SweepOptions {

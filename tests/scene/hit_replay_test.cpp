@@ -1,0 +1,219 @@
+#include "scene/hit_replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/outputs.h"
+#include "scene/fight.h"
+#include "scene/hit_fixture.h"
+#include "scene/replay_bytes.h"
+
+namespace ringcraft {
+namespace {
+
+using hits::library;
+using hits::query;
+using ::testing::HasSubstr;
+
+// Events of a hit that was simulated alone.
+const std::string& hit_events() {
+  static const std::string text = [] {
+    HitQuery hit = query();
+    hit.part = Part::chest;
+    hit.impulse = {5, 1, -30};
+    const auto answer = simulate_hit(library(), hit);
+    if (!answer) throw std::runtime_error(to_string(answer.error()));
+    return events_jsonl(answer->timeline, {{"one", answer->bodies[0]}}, {});
+  }();
+  return text;
+}
+
+Result<ReplayReport> replayed(const std::string& text, int threads = 1) {
+  return replay_hits("events.jsonl", text, threads);
+}
+
+TEST(HitReplay, AFightsHitsComeOutToTheBit) {
+  auto scene = read_scene("duel", {"duration_s=6", "seed=3"});
+  ASSERT_TRUE(scene);
+  const FightRecord record = simulate_fight(library(), *scene, {});
+  std::vector<FighterLook> looks;
+  for (const BodyModel& body : record.bodies) looks.push_back({body.spec.name, body});
+  const std::string text = events_jsonl(record.timeline, looks, {});
+  const auto report = replayed(text, 2);
+  ASSERT_TRUE(report) << to_string(report.error());
+  EXPECT_EQ(report->hits, record.counts.impacts);
+  EXPECT_GT(report->hits, 0u);
+  EXPECT_EQ(report->differ, 0u) << ::testing::PrintToString(report->lines);
+  for (const Event& event : record.timeline.events) EXPECT_LT(event.replay.size(), 8192u);
+}
+
+TEST(HitReplay, IsNoPartOfTheTimelinesHash) {
+  HitQuery hit = query();
+  const auto answer = simulate_hit(library(), hit);
+  ASSERT_TRUE(answer);
+  Timeline without = answer->timeline;
+  for (Event& event : without.events) event.replay.clear();
+  EXPECT_EQ(without.hash(), answer->timeline.hash());
+}
+
+TEST(HitReplay, OneChangedDigitOfAnOutcomeIsFound) {
+  for (const char* key : {"\"head_spin_radps\":", "\"damage\":", "\"direction_rad\":",
+                          "\"impulse_Ns\":", "\"steps\":", "\"point\":["}) {
+    std::string text = hit_events();
+    const std::size_t at =
+        text.find_first_of("0123456789", text.find(key) + std::string(key).size());
+    text[at] = text[at] == '7' ? '8' : '7';
+    const auto report = replayed(text);
+    ASSERT_TRUE(report) << to_string(report.error());
+    EXPECT_EQ(report->differ, 1u) << key;
+    ASSERT_EQ(report->lines.size(), 1u);
+    EXPECT_THAT(report->lines[0], HasSubstr("events.jsonl: line 2: "));
+    EXPECT_EQ(report->lines[0].find('\n'), std::string::npos);
+  }
+}
+
+TEST(HitReplay, OneChangedDigitOfTheReplayIsFound) {
+  const std::string whole = hit_events();
+  const std::size_t begin = whole.find("\"replay\":\"") + 10, end = whole.find('"', begin);
+  ASSERT_LT(end, whole.size());
+  for (std::size_t at = begin; at < end; at += 97) {
+    std::string text = whole;
+    text[at] = text[at] == 'A' ? 'B' : 'A';
+    const auto report = replayed(text);
+    ASSERT_FALSE(report) << at;
+    EXPECT_EQ(report.error().kind, ErrorKind::input);
+    EXPECT_EQ(report.error().place, "line 2");
+  }
+}
+
+TEST(HitReplay, AnotherOutcomeThanTheWrittenOneIsFoundToTheBit) {
+  HitQuery hit = query();
+  hit.impulse = {0, 0, -20};
+  const auto posed = posed_body(library(), hit);
+  ASSERT_TRUE(posed);
+  const ImpactInput input = with_impulse(*posed, Part::head, hit.impulse, 1);
+  ImpactOutcome outcome = impulse_step(posed->body, input);
+  outcome.margin = std::nextafter(outcome.margin, 1.0f);
+  const auto answer = simulate_hit(library(), hit);
+  Timeline timeline = answer->timeline;
+  timeline.events[0].replay = replay_text(posed->body, input, outcome, 100'000);
+  const auto report = replayed(events_jsonl(timeline, {{"one", posed->body}}, {}));
+  ASSERT_TRUE(report) << to_string(report.error());
+  EXPECT_EQ(report->differ, 1u);
+  EXPECT_THAT(report->lines.at(0), HasSubstr("differs to the bit"));
+}
+
+TEST(HitReplay, EveryCutOfTheFileIsAnError) {
+  const std::string whole = hit_events();
+  for (std::size_t size = 0; size + 1 < whole.size(); size += 1 + size / 16) {
+    const std::string cut = whole.substr(0, size);
+    const auto report = replayed(cut);
+    if (!cut.empty() && cut.back() == '\n') continue;  // whole lines only
+    ASSERT_FALSE(report) << size;
+    EXPECT_EQ(report.error().kind, ErrorKind::input);
+    EXPECT_THAT(report.error().place, HasSubstr("line "));
+  }
+}
+
+TEST(HitReplay, HostileFilesAreErrorsWithTheLine) {
+  const std::string header = "{\"type\":\"header\"}\n";
+  const auto hit = [](const std::string& replay) {
+    return "{\"type\":\"hit\",\"replay\":" + replay + "}\n";
+  };
+  const std::vector<std::string> files = {
+      "[]\n",
+      "{}\n",
+      "null\n",
+      "{\"type\":7}\n",
+      "\xff\xfe\n",
+      "{\"type\":\"hit\"}\n",
+      header + "x\n",
+      header + hit("7"),
+      header + hit("null"),
+      header + hit("\"\""),
+      header + hit("\"====\""),
+      header + hit("\"" + std::string(20'000, 'A') + "\""),
+      header + "{\"type\":\"block\"}\n",
+      header + std::string(2u << 20, '[') + "\n",
+      header + hit("\"" + base64(std::vector<std::uint8_t>(600, 1)) + "\"")};
+  for (const std::string& file : files) {
+    const auto report = replayed(file);
+    ASSERT_FALSE(report) << file.substr(0, 60);
+    EXPECT_EQ(report.error().kind, ErrorKind::input);
+    EXPECT_THAT(report.error().place, HasSubstr("line "));
+  }
+}
+
+TEST(HitReplay, AFightWithoutHitsHasNothingToDiffer) {
+  const auto report = replayed("{\"type\":\"header\"}\n{\"type\":\"decision\"}\n");
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->hits, 0u);
+}
+
+TEST(ReplayText, ValuesThatNoHitHasAreRefusedThoughTheHashFits) {
+  HitQuery hit = query();
+  const auto posed = posed_body(library(), hit);
+  ASSERT_TRUE(posed);
+  const ImpactInput good = with_impulse(*posed, Part::head, {0, 0, -20}, 1);
+  std::string why;
+  EXPECT_TRUE(read_replay(replay_text(posed->body, good, {}, 1), why));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto refused = [&](const BodyModel& body, const ImpactInput& input) {
+    return !read_replay(replay_text(body, input, {}, 1), why).has_value();
+  };
+  ImpactInput bad = good;
+  bad.pose.hips.x = nan;
+  EXPECT_TRUE(refused(posed->body, bad));
+  bad = good;
+  bad.pose.rotation[3] = Quat(0, 0, 0, 0);
+  EXPECT_TRUE(refused(posed->body, bad));
+  bad = good;
+  bad.blow.impulse.y = std::numeric_limits<float>::infinity();
+  EXPECT_TRUE(refused(posed->body, bad));
+  bad = good;
+  bad.tone = nan;
+  EXPECT_TRUE(refused(posed->body, bad));
+  bad = good;
+  bad.blow.part = static_cast<Part>(200);
+  EXPECT_TRUE(refused(posed->body, bad));
+  BodyModel giant = posed->body;
+  giant.spec.height = 90;
+  EXPECT_TRUE(refused(giant, good));
+}
+
+TEST(ReplayText, ReadsBackWhatWasWritten) {
+  HitQuery hit = query("cross", 0.2);
+  hit.body.sex = Sex::female;
+  hit.body.height = 1.61f;
+  const auto posed = posed_body(library(), hit);
+  ASSERT_TRUE(posed);
+  ImpactInput input = with_impulse(*posed, Part::left_forearm, {3, 2, -21}, 0.7f);
+  input.blow.blocked = true;
+  const ImpactOutcome outcome = impulse_step(posed->body, input);
+  std::string why;
+  const auto read = read_replay(replay_text(posed->body, input, outcome, 77), why);
+  ASSERT_TRUE(read) << why;
+  EXPECT_EQ(read->health, 77);
+  EXPECT_EQ(read->body.height, 1.61f);
+  EXPECT_EQ(read->body.sex, Sex::female);
+  EXPECT_EQ(read->outcome, outcome);
+  EXPECT_EQ(read->input.contacts, input.contacts);
+  EXPECT_EQ(read->input.tone, 0.7f);
+  EXPECT_TRUE(read->input.blow.blocked);
+  EXPECT_EQ(read->input.blow.part, Part::left_forearm);
+  EXPECT_EQ(read->input.blow.impulse, input.blow.impulse);
+  const auto same = [](const Pose& a, const Pose& b) {
+    return a.hips == b.hips && a.rotation == b.rotation;
+  };
+  EXPECT_TRUE(same(read->input.pose, input.pose));
+  EXPECT_TRUE(same(read->input.pose_before, input.pose_before));
+  ASSERT_EQ(read->continued.size(), static_cast<std::size_t>(kImpulseStepTicks) + 1);
+  for (std::size_t i = 0; i < read->continued.size(); ++i) {
+    EXPECT_TRUE(same(read->continued[i], input.continued[i])) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft

@@ -1,0 +1,134 @@
+#include "scene/single_hit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/hit_fixture.h"
+
+namespace ringcraft {
+namespace {
+
+using hits::library;
+using hits::query;
+using ::testing::HasSubstr;
+
+TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
+  const auto& launchable = library().launchable();
+  for (std::size_t i = 0; i < launchable.size(); i += 5) {
+    const Action& action = library().action(launchable[i]);
+    for (const double share : {0.1, 0.5, 0.9}) {
+      const double at = share * seconds(action.length());
+      const auto posed = posed_body(library(), query(action.name, at));
+      ASSERT_TRUE(posed) << to_string(posed.error());
+      const auto outcome = impulse_step(posed->body, with_impulse(*posed, Part::head, {}, 1));
+      EXPECT_EQ(outcome.response, ResponseKind::absorb)
+          << action.name << " at " << at << " s, margin " << outcome.margin << " m";
+    }
+  }
+}
+
+TEST(SingleHit, TheImpulseIsInTheFightersOwnAxes) {
+  const auto posed = posed_body(library(), query());
+  ASSERT_TRUE(posed);
+  const ImpactInput fore = with_impulse(*posed, Part::chest, {0, 0, 10}, 1);
+  EXPECT_NEAR(yaw_of(fore.blow.impulse), posed->facing, 1e-5f);
+  EXPECT_NEAR(glm::length(fore.blow.impulse), 10, 1e-5f);
+  // It meets the chest from behind.
+  EXPECT_LT(
+      glm::dot(fore.blow.point - posed->input.pose.hips, yaw_rotation(posed->facing) * kForward),
+      0.1f);
+}
+
+TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
+  HitQuery hit = query("idle_guard_bounce", 0.0);
+  hit.impulse = {0, 0, -20};
+  hit.part = Part::chest;
+  const auto answer = simulate_hit(library(), hit);
+  ASSERT_TRUE(answer) << to_string(answer.error());
+  ASSERT_EQ(answer->timeline.tracks.size(), 1u);
+  EXPECT_EQ(answer->hit_tick, 0);
+  EXPECT_EQ(answer->timeline.tracks[0].frames.size(),
+            static_cast<std::size_t>(answer->timeline.end) + 1);
+  EXPECT_EQ(answer->timeline.events[0].type, EventType::hit);
+}
+
+struct Placed {
+  const char* strike;
+  Part part;
+};
+void PrintTo(const Placed& placed, std::ostream* out) {
+  *out << placed.strike;
+}
+
+class PlacedStrikeTest : public ::testing::TestWithParam<Placed> {};
+
+TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
+  HitQuery hit = query();
+  hit.strike = GetParam().strike;
+  hit.part = GetParam().part;
+  const auto answer = simulate_hit(library(), hit);
+  ASSERT_TRUE(answer) << to_string(answer.error());
+  const Blow& blow = answer->input.blow;
+  EXPECT_EQ(zone_of(blow.part), zone_of(hit.part));
+  EXPECT_GT(blow.speed, 2);
+  EXPECT_GT(glm::length(blow.impulse), 3);
+  // J = share (1 + e) v / (1/m + 1/M) with e = 0.1: never more than (1 + e) v m.
+  EXPECT_LE(glm::length(blow.impulse), 1.1f * blow.speed * blow.effective_mass * 1.001f);
+  ASSERT_EQ(answer->timeline.tracks.size(), 2u);
+  for (const FighterTrack& track : answer->timeline.tracks) {
+    EXPECT_EQ(track.frames.size(), static_cast<std::size_t>(answer->timeline.end) + 1);
+  }
+  // The same blow given directly, to a body that was never on a stage with another.
+  ImpactInput direct = answer->input;
+  const auto posed = posed_body(library(), query(hit.action, static_cast<double>(answer->at_s)));
+  ASSERT_TRUE(posed);
+  direct.continued = posed->continued;
+  const ImpactOutcome outcome = impulse_step(posed->body, direct);
+  EXPECT_EQ(outcome.response, answer->outcome.response);
+  EXPECT_EQ(outcome.steps, answer->outcome.steps);
+  EXPECT_NEAR(outcome.head_spin, answer->outcome.head_spin,
+              0.05f * answer->outcome.head_spin + 0.1f);
+  EXPECT_NEAR(outcome.margin, answer->outcome.margin, 0.02f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strikes, PlacedStrikeTest,
+                         ::testing::Values(Placed{"cross", Part::head},
+                                           Placed{"roundhouse_rear_low", Part::left_thigh},
+                                           Placed{"front_kick_rear", Part::abdomen}),
+                         [](const auto& test) { return std::string(test.param.strike); });
+
+TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
+  HitQuery hit = query();
+  hit.strike = "cross";
+  hit.part = Part::left_shin;
+  const auto answer = simulate_hit(library(), hit);
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().kind, ErrorKind::usage);
+  EXPECT_THAT(answer.error().what, HasSubstr("cross does not land on the leftShin"));
+  EXPECT_THAT(answer.error().remedy, HasSubstr("it meets head"));
+}
+
+TEST(PlacedStrike, FromAGivenDistanceMeetsOrSaysFromWhereItWould) {
+  HitQuery hit = query();
+  hit.strike = "cross";
+  hit.distance = 0.95f;
+  const auto near = simulate_hit(library(), hit);
+  ASSERT_TRUE(near) << to_string(near.error());
+  EXPECT_FLOAT_EQ(near->distance, 0.95f);
+  hit.distance = 2.5f;
+  const auto far = simulate_hit(library(), hit);
+  ASSERT_FALSE(far);
+  EXPECT_THAT(far.error().what, HasSubstr("from 2.5 m"));
+}
+
+TEST(SingleHit, UnknownNamesAndTimesOutsideAreUsageErrors) {
+  for (const HitQuery& wrong : {query("crosss"), query("cross", -1), query("cross", 1e300)}) {
+    const auto answer = simulate_hit(library(), wrong);
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().kind, ErrorKind::usage);
+    EXPECT_EQ(answer.error().place, "--pose");
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
