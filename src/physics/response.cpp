@@ -80,6 +80,10 @@ float yaw_of_body(const Skeleton& skeleton, const Pose& pose) {
 
 }  // namespace
 
+bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
+  return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
+}
+
 ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing) {
   const float direction = wrapped_angle(outcome.direction - facing);
   std::array<Vec3, 3> simulated = outcome.moved;

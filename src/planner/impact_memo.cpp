@@ -58,10 +58,6 @@ class Packer {
 
 }  // namespace
 
-bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
-  return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
-}
-
 std::size_t ImpactMemo::KeyHash::operator()(const Key& key) const {
   std::uint64_t h = key.a * 0x9e3779b97f4a7c15ULL ^ (key.b + 0x7f4a7c15ULL) * 0xc2b2ae3d27d4eb4fULL;
   h ^= h >> 29;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "physics/impact.h"
+#include "physics/response.h"
 #include "planner/motion_tables.h"
 
 namespace ringcraft {
@@ -40,13 +41,6 @@ struct ImpactAnswer {
   float impulse = 0;        // N s
   bool operator==(const ImpactAnswer&) const = default;
 };
-
-// A blow of less impulse is a touch: nobody is moved by it. N s.
-inline constexpr float kTouchImpulse = 5.0f;
-
-// Whether a blow cuts the struck fighter's action: not a touch, and not a block that holds without
-// a step. `impulse` in N s.
-bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 
 class ImpactMemo {
  public:

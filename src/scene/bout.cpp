@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "physics/impact.h"
 #include "physics/penetration.h"
+#include "physics/response.h"
 #include "scene/answer.h"
 #include "scene/hit_replay.h"
 
@@ -283,6 +284,9 @@ void Bout::commit_touch(const Touch& touch) {
     outcome.knockout = true;
   }
 
+  const bool cuts = outcome.knockout ||
+                    interrupts(touch.contact.blocked, glm::length(input.blow.impulse), outcome);
+
   // 3. The record, and the response as the struck fighter's next action.
   event.tick = state_.now;
   event.type = touch.contact.blocked ? EventType::block : EventType::hit;
@@ -297,14 +301,13 @@ void Bout::commit_touch(const Touch& touch) {
   event.effective_mass = input.blow.effective_mass;
   event.head_spin = outcome.head_spin;
   event.damage = static_cast<float>(damage) / 1000;
-  event.response = outcome.response;
-  event.steps = outcome.steps;
+  event.response = cuts ? outcome.response : ResponseKind::absorb;
+  event.steps = cuts ? outcome.steps : 0;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
   note_foreseen(touch, event);
   record_.timeline.events.push_back(event);
-  const bool held = touch.contact.blocked && outcome.response == ResponseKind::absorb;
-  if (!held && !fighter(target).down()) respond(target, input, outcome, event);
+  if (cuts && !fighter(target).down()) respond(target, input, outcome, event);
 }
 
 void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "capture/library_file.h"
+#include "physics/response.h"
 
 namespace ringcraft {
 namespace {
@@ -67,7 +68,7 @@ TEST(Fight, SegmentsFollowEachOtherWithoutAGap) {
 TEST(Fight, AHitIsAnsweredByAForcedResponseAtTheSameTick) {
   const FightRecord record = short_duel(3, 2);
   for (const Event& event : record.timeline.events) {
-    if (event.type != EventType::hit) continue;
+    if (event.type != EventType::hit || glm::length(event.impulse) < kTouchImpulse) continue;
     const auto& segments = record.timeline.tracks[event.whom.at()].segments;
     const bool answered =
         std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
