@@ -102,6 +102,14 @@ Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source
   return pose;
 }
 
+Vec3 wrist_off_hips(const RestFit& fit, const RawPose& source, Side side) {
+  const auto place = [&](Joint joint) {
+    return source.position[static_cast<std::size_t>(fit.map.source[index(joint)])];
+  };
+  const Vec3 hips = 0.5f * (place(Joint::left_upper_leg) + place(Joint::right_upper_leg));
+  return fit.map.axes * (place(arm(side).end) - hips) * fit.scale;
+}
+
 // Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on
 // to the knees.
 void calm_hips(Clip& clip) {
@@ -186,14 +194,19 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   if (!fit) return tl::unexpected(fit.error());
   Clip clip;
   clip.contacts = capture_contacts(raw, fit->map, fit->scale, settings);
-  for (std::size_t i = 0; i < clip.contacts.size(); ++i)
-    clip.frames.push_back(
-        pose_from(target, *fit, raw_pose(raw, static_cast<double>(i) / kTicksPerSecond)));
+  std::array<std::vector<Vec3>, 2> hands;
+  for (std::size_t i = 0; i < clip.contacts.size(); ++i) {
+    const RawPose source = raw_pose(raw, static_cast<double>(i) / kTicksPerSecond);
+    clip.frames.push_back(pose_from(target, *fit, source));
+    for (const Side side : {Side::left, Side::right})
+      hands[static_cast<std::size_t>(side)].push_back(wrist_off_hips(*fit, source, side));
+  }
   if (clip.frames.size() < 2)
     return input_error(raw.file, "", "a capture shorter than a tick is no motion",
                        "give a longer capture");
   clip.root.assign(clip.frames.size(), Placement{});
   turn_to_hinges(target, clip);
+  carry_hands(target, hands, clip);
   const float floor = floor_height(target, clip);
   for (Pose& pose : clip.frames) pose.hips.y -= floor;
   calm_hips(clip);

@@ -2,8 +2,8 @@
 // Retargeting: a capture's motion on the canonical skeleton, at one frame a tick, feet planted.
 //
 // Every bone points the way the capture's bone points (its rest pose is laid on ours bone by bone),
-// the hips' path is scaled by leg length, and the feet are cleaned up by inverse kinematics: a foot
-// that stands in the capture stands still on the floor.
+// wrists follow the captured wrists, the hips' path is scaled by leg length, and the feet are
+// cleaned up by inverse kinematics: a foot that stands in the capture stands still on the floor.
 
 #include "capture/profile.h"
 #include "motion/clip.h"
@@ -31,6 +31,12 @@ std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& m
 // The clean-up alone: planted feet are held at one place on the floor, the others return to their
 // path; hips sink a little where a leg would not reach. Contacts must be labelled.
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings = {});
+
+// Moves the wrists onto the way of the captured ones, scaled and shifted as little as our body's
+// proportions ask for; the shift turns with the way the body faces for long. `captured`: per side
+// and tick, wrist from the middle of the hip joints in our axes, metres of the target's body.
+void carry_hands(const Skeleton& skeleton, const std::array<std::vector<Vec3>, 2>& captured,
+                 Clip& clip);
 
 // Turns upper arms and thighs about themselves until elbows and knees flex about their hinges (y of
 // the lower arm, x of the lower leg); the lower bones keep their directions.
