@@ -1,0 +1,117 @@
+// Real captures, read and retargeted; skipped where they are not there (see mocap.h).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "capture/gltf.h"
+#include "capture/read_capture.h"
+#include "mocap.h"
+
+namespace ringcraft {
+namespace {
+
+struct Retargeted {
+  RawClip raw;
+  std::string profile;
+  JointMap map;
+  Clip clip;
+};
+
+Result<Retargeted> retargeted(const std::filesystem::path& path, const std::string& clip = "") {
+  CaptureSource source;
+  source.clip = clip;
+  auto raw = read_capture(path, source);
+  if (!raw) return tl::unexpected(raw.error());
+  replace_junk_first_frame(*raw);
+  static const auto profiles = read_profiles(assets_folder() / "profiles");
+  if (!profiles) return tl::unexpected(profiles.error());
+  auto profile = best_profile(*profiles, *raw);
+  if (!profile) return tl::unexpected(profile.error());
+  auto map = map_joints(*profile, *raw);
+  if (!map) return tl::unexpected(map.error());
+  auto moved = retarget(*raw, *profile, canonical_skeleton());
+  if (!moved) return tl::unexpected(moved.error());
+  return Retargeted{std::move(*raw), profile->name, *map, std::move(*moved)};
+}
+
+class Captures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << "skipped: no captures";
+  }
+  std::filesystem::path folder_ = testing::mocap_folder();
+};
+
+TEST_F(Captures, EveryFileReadsAndRetargetsOrIsRefusedWithAReason) {
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+    if (entry.is_regular_file()) files.insert(entry.path());
+  int whole = 0;
+  for (const auto& file : files) {
+    const std::string kind = file.extension().string();
+    if (kind == ".asf" || kind == ".md") continue;
+    std::vector<std::string> clips = {""};
+    if (kind == ".glb") {
+      const auto named = gltf_clips(file);
+      ASSERT_TRUE(named) << to_string(named.error());
+      clips = {"Punch_Right", "Unarmed_Melee_Attack_Kick", "Death_A_Pose"};
+    }
+    for (const std::string& clip : clips) {
+      const auto done = retargeted(file, clip);
+      if (!done) {
+        EXPECT_TRUE(kind == ".glb") << to_string(done.error());
+        EXPECT_FALSE(done.error().what.empty() || done.error().remedy.empty()) << file;
+        continue;
+      }
+      ++whole;
+      EXPECT_TRUE(faults(done->clip).empty()) << file << ": " << faults(done->clip).front();
+      // The body is one of flesh: it stays near the floor, and over it.
+      for (const Pose& pose : done->clip.frames) {
+        ASSERT_GT(pose.hips.y, 0.0f) << file;
+        ASSERT_LT(pose.hips.y, 2.5f) << file;
+      }
+    }
+  }
+  EXPECT_GT(whole, 0);
+}
+
+TEST_F(Captures, EverySourceFindsItsProfile) {
+  const std::pair<const char*, const char*> sources[] = {
+      {"cmu/13_17.amc", "cmu_asf"},
+      {"cmu/16_15.bvh", "cmu_bvh"},
+      {"hdm05/bk_kickLFront1Reps_007_120.amc", "cmu_asf"},
+      {"deepmimic/punch.bvh", "deepmimic"},
+      {"mass/mass_kick.bvh", "mass"},
+      {"debian/Boxing_Toes.bvh", "boxing_toes"},
+      {"characters/Knight.glb", "kaykit"},
+      {"characters/Character.glb", "quaternius"},
+  };
+  for (const auto& [file, profile] : sources) {
+    if (!std::filesystem::exists(folder_ / file)) continue;
+    const auto done = retargeted(folder_ / file);
+    ASSERT_TRUE(done) << to_string(done.error());
+    EXPECT_EQ(done->profile, profile) << file;
+  }
+}
+
+// Boxing, a kata, a run, a kick, a get-up: paths that move by 2 cm or more.
+TEST_F(Captures, WristsAndAnklesGoTheCapturedWayAndFeetSkateNoMore) {
+  for (const char* file : {"cmu/13_17.amc", "cmu/135_06.amc", "cmu/16_15.bvh", "cmu/49_02.bvh",
+                           "debian/Boxing_Toes.bvh", "deepmimic/kick.bvh", "deepmimic/punch.bvh",
+                           "deepmimic/getup_faceup.bvh", "deepmimic/spinkick.bvh"}) {
+    if (!std::filesystem::exists(folder_ / file)) continue;
+    const auto done = retargeted(folder_ / file);
+    ASSERT_TRUE(done) << to_string(done.error());
+    const auto measures = testing::measure(done->raw, done->map, done->clip, canonical_skeleton());
+    for (const auto& axis : measures.axes) {
+      if (axis.spread < 0.02) continue;
+      EXPECT_GT(axis.correlation, 0.98)
+          << file << ' ' << vrm_name(axis.joint) << " axis " << axis.axis;
+    }
+    EXPECT_LE(measures.our_skate, measures.source_skate + 0.005) << file;
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
