@@ -248,6 +248,20 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
   return std::nullopt;
 }
 
+// Impulse times speed of the blow as the clips alone would have it, J: what an attacker looks for.
+float work_of(const StrikeQuery& where, const StrikePlace& place) {
+  Launch target, attacker;
+  target.action = where.target_action;
+  attacker.action = where.attack;
+  attacker.placement = attacker_placement(
+      root_at(where.library, target, where.target_age, where.target.scale), place.distance);
+  const Pose struck = pose_at(where.library, target, where.target_age, where.target.scale);
+  const Pose striking = pose_at(where.library, attacker, place.age, where.attacker.scale);
+  const StrikeKind kind = where.library.action(where.attack).strikes.front().kind;
+  const Blow blow = blow_of(where.attacker, striking, where.target, struck, place.contact, kind);
+  return glm::length(blow.impulse) * blow.speed;
+}
+
 Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& query,
                                   const Interrupted& cut) {
   const ActionId attack = library.find(query.strike);
@@ -263,7 +277,7 @@ Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& 
   const Strike& strike = library.action(attack).strikes.front();
   struct Candidate {
     Met met;
-    float speed;
+    float work;
     StrikePlace place;
   };
   std::vector<Candidate> candidates;
@@ -271,10 +285,10 @@ Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& 
   for (const StrikePlace& place : places) {
     const Met met = met_by(place.contact, strike, query.part);
     if (met == Met::anything && !query.distance) continue;
-    candidates.push_back({met, -glm::dot(place.contact.velocity, place.contact.normal), place});
+    candidates.push_back({met, work_of(where, place), place});
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return a.met != b.met ? a.met < b.met : a.speed > b.speed;
+    return a.met != b.met ? a.met < b.met : a.work > b.work;
   });
   if (candidates.size() > kMostTried) candidates.resize(kMostTried);
   for (const Candidate& c : candidates) {

@@ -20,9 +20,10 @@ struct HitQuery {
   Vec3 impulse{};     // N s, in the fighter's own axes: x to its left, y up, z the way it faces
   float tone = 1.0f;  // 0 limp .. 1 full
 
-  std::string strike;             // an attack instead of the impulse: its first blow meets the part
-  BodySpec attacker;              // who throws it
-  std::optional<float> distance;  // m between the two roots at the hit; else where it lands best
+  std::string strike;  // an attack instead of the impulse: its first blow meets the part
+  BodySpec attacker;   // who throws it
+  std::optional<float>
+      distance;  // m between the two roots at the hit; else where it does most work
 };
 
 struct HitAnswer {
