@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -180,7 +181,9 @@ int run_sweep(const MotionLibrary& library, const HitQuery& query, const HitOpti
   if (options.json) {
     fmt::print("{}\n", json);
   } else {
-    fmt::print("{} hits; open {}\n", sweep->points.size(), (folder / "hit_sweep.svg").string());
+    const auto done = std::ranges::count_if(sweep->points, &SweepPoint::done);
+    fmt::print("{} of {} hits; open {}\n", done, sweep->points.size(),
+               (folder / "hit_sweep.svg").string());
   }
   return sweep->interrupted ? 130 : 0;
 }
