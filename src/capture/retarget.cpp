@@ -77,6 +77,20 @@ void fill_trunk(const Skeleton& target, const JointMap& map, std::array<Quat, kJ
   }
 }
 
+// Some captures roll a foot by half a turn about its length (two Euler angles near 180 degrees, as
+// HDM05 has them): no foot's sole faces up its own shin. Such a foot is rolled back.
+void turn_soles_down(std::array<Quat, kJointCount>& world) {
+  constexpr float kUpsideDown = -0.2f;  // cosine between the instep and the shin
+  for (const Side side : {Side::left, Side::right}) {
+    const Quat& shin = world[index(leg(side).middle)];
+    Quat& foot = world[index(leg(side).end)];
+    if (glm::dot(shin * kUp, foot * kUp) > kUpsideDown) continue;
+    const Quat roll = glm::angleAxis(kPi, kForward);
+    foot = foot * roll;
+    world[index(toes(side))] = world[index(toes(side))] * roll;
+  }
+}
+
 Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source) {
   const Quat back = glm::inverse(fit.map.axes);
   std::array<Quat, kJointCount> world{};
@@ -87,6 +101,7 @@ Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source
   fill_trunk(target, fit.map, world);
   for (std::size_t j = index(Joint::left_shoulder); j < kJointCount; ++j)
     if (fit.map.source[j] < 0) world[j] = world[static_cast<std::size_t>(kParent[j])];
+  turn_soles_down(world);
 
   Pose pose;
   const auto socket = [&](Joint joint) {

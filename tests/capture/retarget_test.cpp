@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "capture/bvh.h"
-#include "motion/quality.h"
+#include "mocap.h"
 
 namespace ringcraft {
 namespace {
@@ -205,6 +205,49 @@ TEST(Retarget, BonesWithoutLengthDoNoHarm) {
   EXPECT_TRUE(faults(*clip).empty()) << faults(*clip).front();
 }
 
+TEST(Retarget, AFootRolledUpsideDownIsRolledBack) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  RawClip raw = capture_of(skeleton, poses, {}, 1);
+  const auto right = retarget(raw, own_names(), skeleton);
+  for (std::size_t f = 0; f < raw.frames; ++f)
+    raw.rotation[raw.at(f, index(Joint::left_foot))] *= glm::angleAxis(kPi, kForward);
+  const auto rolled = retarget(raw, own_names(), skeleton);
+  ASSERT_TRUE(right && rolled);
+  for (std::size_t i = 0; i < right->frames.size(); i += 20) {
+    const Quat a = world_pose(skeleton, right->frames[i]).rotation[index(Joint::left_foot)];
+    const Quat b = world_pose(skeleton, rolled->frames[i]).rotation[index(Joint::left_foot)];
+    EXPECT_LT(glm::length(rotation_vector(glm::inverse(a) * b)), radians(1)) << i;
+  }
+}
+
+// Longer arms on a shorter trunk: hands still draw the captured way.
+TEST(Retarget, HandsGoTheCapturedWayWhateverTheProportions) {
+  const Skeleton skeleton = canonical_skeleton();
+  Skeleton other = skeleton;
+  for (const Side side : {Side::left, Side::right}) {
+    other.offset[index(arm(side).end)] *= 0.75f;
+    other.offset[index(arm(side).root)].x *= 1.3f;
+  }
+  other.offset[index(Joint::chest)] *= 0.7f;
+  const std::vector<Pose> poses = standing_work(skeleton);
+  const auto clip = retarget(capture_of(other, poses, {}, 1), own_names(), skeleton);
+  ASSERT_TRUE(clip);
+  for (const Side side : {Side::left, Side::right})
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> ours, theirs;
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        const WorldPose a = world_pose(skeleton, clip->frames[i]);
+        const WorldPose b = world_pose(other, poses[i]);
+        ours.push_back(
+            static_cast<double>(a.position[index(arm(side).end)][axis] - a.position[0][axis]));
+        theirs.push_back(
+            static_cast<double>(b.position[index(arm(side).end)][axis] - b.position[0][axis]));
+      }
+      EXPECT_GT(testing::correlation(ours, theirs), 0.995) << axis;
+    }
+}
+
 TEST(Retarget, ACaptureOfHoursIsRefused) {
   const Skeleton skeleton = canonical_skeleton();
   RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
@@ -212,21 +255,7 @@ TEST(Retarget, ACaptureOfHoursIsRefused) {
   EXPECT_FALSE(retarget(raw, own_names(), skeleton));
 }
 
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double mean_a = 0, mean_b = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) mean_a += a[i], mean_b += b[i];
-  mean_a /= static_cast<double>(a.size());
-  mean_b /= static_cast<double>(b.size());
-  double ab = 0, aa = 0, bb = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - mean_a) * (b[i] - mean_b);
-    aa += (a[i] - mean_a) * (a[i] - mean_a);
-    bb += (b[i] - mean_b) * (b[i] - mean_b);
-  }
-  return ab / std::sqrt(aa * bb);
-}
-
-class Boxing : public testing::Test {
+class Boxing : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(kBoxing))
@@ -264,7 +293,7 @@ TEST_F(Boxing, WristsAndAnklesGoTheWayTheyWentInTheCapture) {
         theirs.push_back(
             static_cast<double>(source(i, joint)[axis] - source(i, Joint::hips)[axis]));
       }
-      EXPECT_GT(correlation(ours, theirs), 0.98) << vrm_name(joint) << " axis " << axis;
+      EXPECT_GT(testing::correlation(ours, theirs), 0.98) << vrm_name(joint) << " axis " << axis;
     }
 }
 
