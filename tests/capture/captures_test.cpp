@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
 #include "capture/gltf.h"
+#include "capture/library_builder.h"
 #include "capture/read_capture.h"
 #include "mocap.h"
 
@@ -111,6 +113,41 @@ TEST_F(Captures, WristsAndAnklesGoTheCapturedWayAndFeetSkateNoMore) {
     }
     EXPECT_LE(measures.our_skate, measures.source_skate + 0.005) << file;
   }
+}
+
+// The manifest of docs/captures.md: one capture of each format that needs a key of its own.
+TEST_F(Captures, AManifestMayNameAnyFormat) {
+  const auto absolute = std::filesystem::absolute(folder_).lexically_normal();
+  const auto manifest = std::filesystem::path(::testing::TempDir()) / "ringcraft_any_format.toml";
+  const auto folder = absolute.string();
+  std::ofstream(manifest)
+      << "name = \"my_gym\"\n"
+         "[[capture]]\npath = \"" +
+             folder +
+             "/cmu/13_17.amc\"\nguard_at = 0.5\n"
+             "[[capture.action]]\nname = \"cross\"\nkind = \"attack\"\nbegin = 1.55\n"
+             "end = 2.35\nstrike = [{kind = \"straight\", joint = \"rightHand\", "
+             "zone = \"head\", at = 1.92}]\n"
+             "[[capture]]\npath = \"" +
+             folder + "/hdm05/bk_kickLFront1Reps_007_120.amc\"\nskeleton = \"" + folder +
+             "/hdm05/bk.asf\"\nframe_rate = 120\nguard_at = 0.1\n"
+             "[[capture.action]]\nname = \"kick\"\nkind = \"attack\"\nbegin = 0.2\n"
+             "end = 2.2\nstrike = [{kind = \"front_kick\", joint = \"leftFoot\", "
+             "zone = \"body\", at = 1.0}]\n"
+             "[[capture]]\npath = \"" +
+             folder +
+             "/characters/Character.glb\"\nclip = \"Punch_Right\"\nguard_at = 0.0\n"
+             "[[capture.action]]\nname = \"punch\"\nkind = \"attack\"\nbegin = 0.0\n"
+             "end = 0.8\nstrike = [{kind = \"straight\", joint = \"rightHand\", "
+             "zone = \"head\", at = 0.4}]\n";
+  std::vector<std::string> notes;
+  const auto actions = collect_actions(manifest, &notes);
+  std::filesystem::remove(manifest);
+  ASSERT_TRUE(actions) << to_string(actions.error());
+  ASSERT_EQ(actions->size(), 3u);
+  EXPECT_EQ((*actions)[0].name, "cross");
+  EXPECT_THAT((*actions)[2].source, ::testing::HasSubstr("Character.glb Punch_Right"));
+  for (const Action& action : *actions) EXPECT_TRUE(faults(action.clip).empty());
 }
 
 }  // namespace
