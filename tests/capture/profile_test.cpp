@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/file.h"
 
 namespace ringcraft {
@@ -55,6 +57,72 @@ TEST(Profile, TheOneThatKnowsAllJointsWins) {
   EXPECT_EQ(best_profile(known, motion_builder("mixamorig:", true))->name, "mixamo");
   EXPECT_EQ(best_profile(known, motion_builder("Character1_", false))->name, "mass");
   EXPECT_EQ(best_profile(known, motion_builder("", true))->name, "mixamo");
+}
+
+// The same body under other names, its axes and unit turned to those of the file.
+RawClip renamed(const std::vector<std::pair<std::string, std::string>>& names, const Quat& axes,
+                float unit) {
+  RawClip clip = motion_builder("", true);
+  for (RawJoint& joint : clip.joints) {
+    joint.offset = axes * joint.offset * unit;
+    for (const auto& [from, to] : names)
+      if (joint.name == from) {
+        joint.name = to;
+        break;
+      }
+  }
+  return clip;
+}
+
+std::vector<std::pair<std::string, std::string>> names_of(const SkeletonProfile& profile) {
+  std::vector<std::pair<std::string, std::string>> names;
+  const auto known = profiles();
+  const auto mixamo = std::find_if(known.begin(), known.end(),
+                                   [](const auto& one) { return one.name == "mixamo"; });
+  for (std::size_t j = 0; j < kJointCount; ++j)
+    if (!profile.source[j].empty()) names.emplace_back(mixamo->source[j], profile.source[j]);
+  return names;
+}
+
+TEST(Profile, AxesAndUnitsDecideBetweenProfilesOfTheSameNames) {
+  const auto known = profiles();
+  const Quat same(1, 0, 0, 0);
+  const Quat turned = yaw_rotation(kPi);                 // looks along -Z
+  const Quat z_up = glm::angleAxis(radians(90), kLeft);  // y to z, z to -y
+  const std::tuple<std::string, Quat, float> bodies[] = {
+      {"vrm", same, 0.01f},     {"vrm0", turned, 0.01f},     {"unreal", same, 0.01f},
+      {"unreal", same, 1.0f},   {"unreal_z_up", z_up, 1.0f}, {"unreal5", same, 0.01f},
+      {"kaykit", same, 0.005f},
+  };
+  for (const auto& [name, axes, unit] : bodies) {
+    const auto own =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+    ASSERT_NE(own, known.end()) << name;
+    const RawClip clip = renamed(names_of(*own), axes, unit);
+    const auto best = best_profile(known, clip);
+    ASSERT_TRUE(best) << name << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, name);
+    const auto map = map_joints(*best, clip);
+    ASSERT_TRUE(map) << to_string(map.error());
+    const Vec3 toes =
+        map->axes *
+        clip.joints[static_cast<std::size_t>(map->source[index(Joint::left_toes)])].offset;
+    EXPECT_GT(toes.z, 0.9f * glm::length(toes)) << name;  // feet look forward
+  }
+}
+
+TEST(Profile, ADetachedJointNeedNotHangBelowItsBone) {
+  SkeletonProfile profile;
+  for (const SkeletonProfile& one : profiles())
+    if (one.name == "mixamo") profile = one;
+  RawClip clip = motion_builder("", true);
+  const auto foot = static_cast<std::size_t>(clip.find("LeftFoot"));
+  clip.joints[foot].offset = {9, -83, 0};
+  clip.joints[foot].parent = 0;
+  EXPECT_EQ(score(profile, clip), 0.0f);
+  profile.detached[index(Joint::left_foot)] = true;
+  EXPECT_EQ(score(profile, clip), 1.0f);
+  EXPECT_TRUE(map_joints(profile, clip));
 }
 
 TEST(Profile, ScoreIsTheShareOfJointsFound) {
