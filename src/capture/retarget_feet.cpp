@@ -180,6 +180,44 @@ void lift_heels(const Skeleton& skeleton, const Clip& clip, std::array<FootTrack
   }
 }
 
+// Ankle ranges (physics/limits.cpp), rad, and how long before its end a range begins to resist.
+constexpr float kPlantar = radians(60), kDorsal = radians(35), kSideways = radians(35);
+constexpr float kAnkleEase = radians(6);
+
+// Nearer to zero where `angle` comes close to `limit`, which it never passes.
+float held_within(float angle, float limit) {
+  const float free = limit - kAnkleEase, over = std::abs(angle) - free;
+  if (over <= 0) return angle;
+  return std::copysign(free + kAnkleEase * (1 - std::exp(-over / kAnkleEase)), angle);
+}
+
+Quat ankle_within_range(Quat ankle) {
+  const float bend = wrapped_angle(2 * std::atan2(ankle.x, ankle.w));
+  Vec3 swing = rotation_vector(ankle * glm::angleAxis(-bend, kLeft));
+  swing.y = held_within(swing.y, kSideways);
+  swing.z = held_within(swing.z, kSideways);
+  const float kept = held_within(bend, bend < 0 ? kDorsal : kPlantar);
+  return glm::normalize(from_rotation_vector(swing) * glm::angleAxis(kept, kLeft));
+}
+
+// Turns feet on their balls to where the ankle can hold them; that moves the shin in turn.
+void fit_ankles(const Skeleton& skeleton, const Clip& clip, std::array<FootTrack, 2>& feet) {
+  constexpr int kRounds = 4;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    for (const Side side : {Side::left, Side::right}) {
+      FootTrack& track = feet[static_cast<std::size_t>(side)];
+      const Quat asked = track.foot[i];
+      Pose pose = clip.frames[i];
+      for (int round = 0; round < kRounds; ++round) {
+        place_leg(skeleton, side, track, i, pose);
+        const Quat shin = world_pose(skeleton, pose).rotation[index(leg(side).middle)];
+        const Quat ankle = glm::inverse(shin) * asked;
+        track.foot[i] = glm::normalize(shin * ankle_within_range(ankle));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings) {
@@ -191,6 +229,7 @@ void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& se
   }
   lift_heels(skeleton, clip, feet);
   fit_hips(skeleton, feet, clip);
+  fit_ankles(skeleton, clip, feet);
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     for (const Side side : {Side::left, Side::right}) {
       const FootTrack& track = feet[static_cast<std::size_t>(side)];
