@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kDeepest = 32;
-constexpr std::size_t kLongestJson = std::size_t{64} << 20;  // bytes
+constexpr std::size_t kLongestJson = std::size_t{16} << 20;  // bytes
 constexpr const char* kExportAgain = "export the file again";
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
