@@ -73,7 +73,10 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
 void Stage::show(Tick tick) {
   for (Actor& actor : actors_) {
     const Clip& clip = library_.action(actor.launch.action).clip;
-    const auto at = static_cast<std::size_t>(tick - actor.simulated_from);
+    auto at = static_cast<std::size_t>(tick - actor.simulated_from);
+    // Who fell lies where the ragdoll came to rest, until a get-up begins.
+    const bool lies = library_.action(actor.launch.action).ends_lying != Lying::none;
+    if (lies && !actor.simulated.empty()) at = std::min(at, actor.simulated.size() - 1);
     if (at < actor.simulated.size()) {
       actor.playback.next_simulated(actor.simulated[at]);
       actor.was_simulated = true;
