@@ -10,6 +10,8 @@ namespace {
 constexpr float kH = kCanonicalHeight;
 constexpr float kLetGo = 0.10f;    // s: from a set foot to a hanging one, and back
 constexpr float kRollOff = 14.0f;  // degrees of heel in the middle of a step
+constexpr float kClear =
+    0.075f;  // m: of a free ankle that moves over the floor, above a standing one
 constexpr float kHanging = 25.0f;  // degrees of point of a foot that hangs
 
 float eased(float from, float to, float x) {
@@ -166,6 +168,36 @@ void FootMotion::make_paths(const SheetAction& action, const std::vector<SheetKe
       }
     }
     span.path.emplace(times, points, windows);
+    if (windows.empty()) make_rise(span, action, keys);
+  }
+}
+
+// A free foot that moves over the floor does not brush it: its ankle rises the faster it goes. It
+// lies where it begins and ends, and with its shin where the knee is on the floor.
+void FootMotion::make_rise(Span& span, const SheetAction& action,
+                           const std::vector<SheetKey>& keys) const {
+  Track knee;
+  for (const SheetKey& key : keys) {
+    const auto& value = key.values[index(of_side(Channel::lead_knee, side_))];
+    if (value) knee.add(key.t, *value);
+  }
+  const float end = std::min(span.land, action.length);
+  const Tick count = std::max<Tick>(1, ticks(end - span.lift)) + 1;
+  const float clear = skeleton_.ankle_height() + kClear;
+  for (Tick tick = 0; tick < count; ++tick) {
+    const float t = span.lift + static_cast<float>(seconds(tick));
+    const Vec3 way = span.path->at(t + kTickSeconds) - span.path->at(t - kTickSeconds);
+    const float speed = std::hypot(way.x, way.z) / (2 * kTickSeconds);
+    const float missing = std::max(0.0f, clear - span.path->at(t).y);
+    const float knee_up = knee.empty() ? 1 : eased(0.05f, 0.18f, knee.at(t).y);
+    span.rise.push_back(missing * eased(0.1f, 0.5f, speed) * knee_up);
+  }
+  widen(span.rise, 10);
+  for (Tick tick = 0; tick < count; ++tick) {
+    const auto since = static_cast<float>(seconds(tick));
+    const auto until = static_cast<float>(seconds(count - 1 - tick));
+    float& rise = span.rise[static_cast<std::size_t>(tick)];
+    rise *= eased(0, kLetGo, since) * eased(0, kLetGo, until);
   }
 }
 
@@ -244,6 +276,11 @@ FootTarget FootMotion::at(float t, const BodyTargets& trunk) const {
   foot.ball = u < 0.5f ? span->from : span->to;
   foot.freedom = freedom(*span, t);
   foot.ankle = span->path->at(t);
+  if (!span->rise.empty()) {
+    const auto last = static_cast<Tick>(span->rise.size()) - 1;
+    const Tick tick = std::clamp<Tick>(ticks(t - span->lift), 0, last);
+    foot.ankle.y += span->rise[static_cast<std::size_t>(tick)];
+  }
   return foot;
 }
 

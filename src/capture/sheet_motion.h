@@ -80,6 +80,7 @@ class FootMotion {
     float height = 0;
     bool free = false, starts_free = false, ends_free = false;
     std::optional<StrikePath> path;
+    std::vector<float> rise;  // m by tick from `lift` on: how far a moving ankle is above its path
   };
   const Span* span_at(float t) const;
   float freedom(const Span& span, float t) const;
@@ -88,6 +89,7 @@ class FootMotion {
                    const std::vector<Placement>& root, const Placement& end);
   void make_paths(const SheetAction& action, const std::vector<SheetKey>& keys,
                   const std::vector<Placement>& root);
+  void make_rise(Span& span, const SheetAction& action, const std::vector<SheetKey>& keys) const;
   void make_knee(const SheetAction& action, const std::vector<SheetKey>& keys,
                  const std::vector<Placement>& root, const TrunkMotion& trunk);
 
