@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "capture/sheet.h"
+#include "motion/quality.h"
 #include "motion/state_machine.h"
 
 namespace ringcraft {
@@ -269,6 +270,34 @@ TEST(SheetMotion, NothingGoesThroughTheFloor) {
       }
     }
   }
+}
+
+TEST(SheetMotion, FeetDoNotSlide) {
+  for (const auto& [name, action] : library())
+    EXPECT_LT(foot_skate_ratio(body(), action.clip.frames, kTicksPerSecond), 0.02) << name;
+}
+
+TEST(SheetMotion, AKickLeavesTheOtherHandBeforeTheFace) {
+  // Metres off the middle of the head, in its axes: within its width, its height and an arm's bend.
+  int kicks = 0;
+  for (const auto& [name, action] : library()) {
+    for (const Strike& strike : action.strikes) {
+      if (strike.kind != StrikeKind::roundhouse) continue;
+      ++kicks;
+      const Side other = strike.joint == leg(Side::left).end ? Side::right : Side::left;
+      for (Tick t = strike.active_begin; t < strike.active_end; ++t) {
+        const WorldPose world = world_pose(body(), action.clip.at(t));
+        const Quat head = world.rotation[index(Joint::head)];
+        const Vec3 middle = position(world, Joint::head) + head * Vec3(0, 0.06f, 0);
+        const Vec3 hand = glm::inverse(head) * (position(world, arm(other).end) - middle);
+        EXPECT_LT(std::abs(hand.x), 0.10f) << name << " at tick " << t;
+        EXPECT_LT(std::abs(hand.y), 0.12f) << name << " at tick " << t;
+        EXPECT_GT(hand.z, 0.12f) << name << " at tick " << t;
+        EXPECT_LT(hand.z, 0.32f) << name << " at tick " << t;
+      }
+    }
+  }
+  EXPECT_GE(kicks, 4);
 }
 
 TEST(SheetMotion, NoJointPops) {
