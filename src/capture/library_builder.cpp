@@ -56,6 +56,7 @@ ActionCut cut_from(const Json& value) {
     cut.response = Response{*response_kind_from_name(text_of(*it, "kind")),
                             static_cast<int>(number_of(*it, "steps")),
                             radians(static_cast<float>(number_of(*it, "direction_degrees")))};
+    cut.response->zone = zone_from_name(text_of(*it, "zone", ""));
     cut.measure_direction = !it->contains("direction_degrees");
   }
   cut.starts_lying = *lying_from_name(text_of(value, "starts_lying", "none"));

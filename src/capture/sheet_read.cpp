@@ -174,7 +174,8 @@ class Reader {
     if (table.contains("response")) {
       const json& r = table["response"];
       action.response = Response{response_kind_from_name(spelled(r["kind"])).value(),
-                                 r.value("steps", 0), radians(r.value("direction", 0.0f))};
+                                 r.value("steps", 0), radians(r.value("direction", 0.0f)),
+                                 zone_from_name(r.value("zone", std::string()))};
     }
     const bool stands = action.starts_lying == Lying::none && action.ends_lying == Lying::none;
     if (table.contains("end_at")) {

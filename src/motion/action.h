@@ -50,6 +50,8 @@ struct Response {
   int steps = 0;  // 1..3 for recovery_steps
   float direction =
       0;  // rad off the own facing in which the body goes; 0 fore, +pi/2 to the own left
+  // Where an absorbed blow landed; without it the response answers a blow anywhere.
+  std::optional<TargetZone> zone = std::nullopt;
 };
 
 enum class Lying : std::uint8_t { none, back, front, side, seat };

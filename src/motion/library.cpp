@@ -34,7 +34,8 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
     }
     if (action.response) {
       hasher.add(action.response->kind).add(action.response->steps);
-      hasher.add(action.response->direction);
+      hasher.add(action.response->direction).add(action.response->zone.has_value());
+      hasher.add(action.response->zone.value_or(TargetZone::head));
     }
     hasher.add(action.starts_lying).add(action.ends_lying);
     add(hasher, action.clip);

@@ -92,6 +92,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
   const Vec3 spin_before = ragdoll.motion(Part::head).angular_velocity;
   strike(ragdoll, body, frame, 1.0f);
   ImpactOutcome outcome;
+  outcome.zone = zone_of(input.blow.part);
   for (int k = 0; k < kImpulseSteps; ++k) {
     balance.guide(ragdoll, frame, k);
     ragdoll.step();

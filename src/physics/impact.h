@@ -55,7 +55,8 @@ struct ImpactOutcome {
   int steps = 0;          // 1..3 for recovery steps
   float direction = 0;    // world yaw in which the body goes
   bool knockout = false;  // a knockdown because the head's rotation switched the muscles off
-  float head_spin = 0;    // change of the head's angular velocity, rad/s
+  TargetZone zone = TargetZone::head;  // where the blow landed
+  float head_spin = 0;                 // change of the head's angular velocity, rad/s
   float margin = 0;  // m: the extrapolated centre of mass beyond the base of support (< 0 inside)
   Vec3 com_velocity{};  // after the impulse step, m/s
   // How far head, chest and hips are from where the action would have them after the impulse step,

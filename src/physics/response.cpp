@@ -9,6 +9,7 @@ namespace ringcraft {
 namespace {
 
 constexpr float kMostUnlike = .2f;     // m
+constexpr float kWrongZone = 3.0f;     // steps: a kick to the thigh does not throw the head back
 constexpr float kMotionWeight = 3.0f;  // steps per metre that the bends of two motions differ by
 constexpr Tick kWindow = 14;           // of a response clip, against the 100 ms of the impulse step
 
@@ -56,6 +57,7 @@ Misfit misfit(const Response& tag, const ImpactOutcome& outcome, float direction
     m.rest += static_cast<float>(std::abs(tag.steps - outcome.steps));
   }
   m.rest += std::abs(wrapped_angle(tag.direction - direction)) / radians(60);
+  if (tag.zone && *tag.zone != outcome.zone) m.rest += kWrongZone;
   return m;
 }
 

@@ -45,7 +45,7 @@ Vec3 way_out(const Capsule& part, std::span<const BodyCapsules> others, Vec3 awa
     if (deepest <= 0) break;
     way += step;
   }
-  return shortened(way, kMostKeptOut);
+  return way;
 }
 
 void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
@@ -73,7 +73,7 @@ LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
       const BodyCapsules own = capsules(body, world_pose(body.skeleton, moved));
       const Vec3 way = way_out(own[index(part)], others, away);
       if (way == Vec3{}) continue;
-      offsets[m] = shortened(offsets[m] + way, kMostKeptOut);
+      offsets[m] = shortened(offsets[m] + way, kMostKeptOut[m]);
       moved = pose;
       move_end(body, m, offsets[m], moved);
     }

@@ -12,10 +12,10 @@ namespace ringcraft {
 // How far the ends of left arm, right arm, left leg and right leg are held off their motion, m.
 using LimbOffsets = std::array<Vec3, 4>;
 
-inline constexpr float kMostKeptOut = 0.16f;  // m
+inline constexpr std::array<float, 4> kMostKeptOut = {0.20f, 0.20f, 0.35f, 0.35f};  // m
 
 // The offsets that move hands, forearms, and feet and shins that are not `held` out of the
-// `others`, each by at most kMostKeptOut. Zero where nothing penetrates.
+// `others`, each by at most its kMostKeptOut. Zero where nothing penetrates.
 LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others);
 
