@@ -105,12 +105,14 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   const int winner = std::min(event.attacker, 1);
   const SideSetup& attacker = side(winner);
   credit(node, winner,
-         hit_points(attacker.weights, *attacker.style, event.blow.kind, damage, knocks_down), true);
+         hit_points(attacker.weights, *attacker.style, event.blow.kind, damage, knocks_down),
+         Term::hit);
   const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
   if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&
       victim.flight.table->action->defense) {
     const std::int32_t full = attacker.clean_damage[event.attack.at()][event.strike];
-    credit(node, event.victim, defense_points(side(event.victim).weights, full - damage), true);
+    credit(node, event.victim, defense_points(side(event.victim).weights, full - damage),
+           Term::defense);
   }
 }
 
@@ -202,7 +204,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
           kBodyRadius)
         continue;
       const std::int32_t full = side(i).clean_damage[flight.launch.action.at()][s];
-      credit(node, 1 - i, defense_points(side(1 - i).weights, full), true);
+      credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense);
       spend(attacker.flight.launch, s);
       if (events_ != nullptr) {
         DuelEvent event;
@@ -226,7 +228,7 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
     const Placement roots[2] = {node.side[0].flight.root_at(tick),
                                 node.side[1].flight.root_at(tick)};
     for (int i = 0; i < 2; ++i) {
-      if (setup_->factors.rest[i] == 0) continue;
+      if (setup_->factors.rest[i] == 0 && terms_ == nullptr) continue;
       const Placement &own = roots[i], &their = roots[1 - i];
       const float dx = their.x - own.x, dz = their.z - own.z;
       const float distance = std::sqrt(dx * dx + dz * dz);
@@ -237,7 +239,8 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
         to_ropes = setup_->settings.ring_half_m -
                    static_cast<double>(std::max(std::abs(own.x), std::abs(own.z)));
       }
-      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes), false);
+      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes),
+             Term::location);
     }
   }
 }

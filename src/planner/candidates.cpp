@@ -234,6 +234,7 @@ void Duel::score_candidates(const Node& node, int who) {
     const Scored one{thousandths(points), action.kind, &next, false};
     if (setup_->settings.prune.back_turned && end.cosine < kCosineBack) {
       ++counts_.back_turned;
+      if (turned_ != nullptr) turned_->push_back(next.to);
       if (end.cosine > least_turned) least_turned = end.cosine, spare = one;
     } else {
       scored_.push_back(one);

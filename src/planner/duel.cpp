@@ -94,10 +94,20 @@ std::uint64_t Duel::hash(const Node& node) const {
   return mixer.digest();
 }
 
-void Duel::credit(Node& node, int who, double points, bool event) const {
+void Duel::note_term(int who, Term term, double points, std::int32_t credited) const {
+  if (terms_ == nullptr) return;
+  TermSum& sum = (*terms_)[static_cast<std::size_t>(who)][static_cast<std::size_t>(term)];
+  sum.points += points;
+  sum.credited += credited;
+}
+
+void Duel::credit(Node& node, int who, double points, Term term) const {
   const auto i = static_cast<std::size_t>(who);
-  node.gained +=
+  const bool event = term == Term::hit || term == Term::defense;
+  const std::int32_t credited =
       thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
+  node.gained += credited;
+  note_term(who, term, points, credited);
 }
 
 void Duel::launch_forced(Node& node, int who, ActionId action) const {
@@ -153,9 +163,12 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
   const double factor = setup_->factors.rest[move.side];
-  node.gained += static_cast<std::int32_t>(std::lround(factor * own.launch[move.action.at()]));
+  const std::int32_t launch = own.launch[move.action.at()];
+  const auto credited = static_cast<std::int32_t>(std::lround(factor * launch));
+  node.gained += credited;
+  note_term(move.side, Term::control, launch / 1000.0, credited);
   credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
-         false);
+         Term::control);
 }
 
 Child<DuelNode> Duel::apply(const Node& node, const Move& move) {

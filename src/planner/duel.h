@@ -87,6 +87,15 @@ struct DuelEvent {
   ImpactAnswer answer;
 };
 
+// The terms of the evaluation, for each side by themselves, written down for whoever asks why.
+enum class Term : std::uint8_t { location, hit, defense, control };
+inline constexpr std::size_t kTerms = 4;
+struct TermSum {
+  double points = 0;          // in the side's own S
+  std::int32_t credited = 0;  // to the planner's f, thousandths
+};
+using DuelTerms = std::array<std::array<TermSum, kTerms>, 2>;  // by side and term
+
 struct DuelCounts {
   std::uint64_t unanswered_hit = 0, back_turned = 0, penetration = 0, candidates = 0;
   DuelCounts& operator+=(const DuelCounts& o);
@@ -116,6 +125,8 @@ class Duel {
   const DuelCounts& counts() const { return counts_; }
   void clear_counts() { counts_ = {}; }
   void record_into(std::vector<DuelEvent>* events) { events_ = events; }
+  void record_terms_into(DuelTerms* terms) { terms_ = terms; }
+  void record_turned_into(std::vector<ActionId>* turned) { turned_ = turned; }  // back_turned
   Tick horizon() const { return horizon_; }
 
   // The side whose action ends first; at equal ends the one that was second at the last tie.
@@ -138,7 +149,8 @@ class Duel {
   struct Aspect;  // what candidates are weighed against; candidates.cpp
 
   const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
-  void credit(Node& node, int side, double points, bool event) const;
+  void credit(Node& node, int side, double points, Term term) const;
+  void note_term(int side, Term term, double points, std::int32_t credited) const;
   void launch_forced(Node& node, int side, ActionId action) const;
   void launch_aimed(Node& node, int side, ActionId action) const;
   void launch_chosen(Node& node, const Move& move) const;
@@ -160,6 +172,8 @@ class Duel {
   Tick horizon_;
   DuelCounts counts_;
   std::vector<DuelEvent>* events_ = nullptr;
+  DuelTerms* terms_ = nullptr;
+  std::vector<ActionId>* turned_ = nullptr;
   std::vector<Window> windows_;  // of meet()
   std::vector<Met> met_;
   struct Scored {
@@ -175,5 +189,9 @@ class Duel {
   void pick_candidates(std::size_t most, bool threatened);
 };
 static_assert(Game<Duel>);
+
+// `foreseen` as a timeline would tell it; `node` is the one that followed it.
+Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
+               const DuelNode& node);
 
 }  // namespace ringcraft

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "planner/duel.h"
 #include "planner/root_search.h"
+#include "planner/tree.h"
 
 namespace ringcraft {
 namespace {
@@ -241,8 +242,6 @@ Line Planner::Inside::line_of(const RootMove<Duel>& root, const DuelSetup& setup
   return line;
 }
 
-namespace {
-
 Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
                const DuelNode& node) {
   const auto id = [&](int who) {
@@ -273,6 +272,8 @@ Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLi
   event.head_spin = answer.outcome.head_spin;
   return event;
 }
+
+namespace {
 
 // What the line says will happen: the moves are played again and their events written down.
 std::vector<Event> foreseen_events(const DuelSetup& setup, const MotionLibrary& library,
@@ -373,6 +374,14 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
   }
   plan.foreseen = foreseen_events(setup, in.library, state, move, searched.horizon);
   return plan;
+}
+
+DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last_contact,
+                           Tick horizon, std::size_t most_nodes) const {
+  const Inside& in = *inside_;
+  const FighterId opponent = in.opponent_of(state, fighter);
+  if (!opponent.valid()) return {};
+  return expand_tree(in.setup(state, fighter, opponent, last_contact), state, horizon, most_nodes);
 }
 
 void Planner::note_launch(FighterId fighter, ActionId action) {

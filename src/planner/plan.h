@@ -11,8 +11,9 @@
 
 namespace ringcraft {
 
-class MotionTables;  // per library and body: capsules, roots and strike sweeps by action and tick
-class ImpactMemo;    // quantised impulse steps, shared by a fight; a memo never changes a result
+class MotionTables;   // per library and body: capsules, roots and strike sweeps by action and tick
+struct DecisionTree;  // planner/tree.h
+class ImpactMemo;     // quantised impulse steps, shared by a fight; a memo never changes a result
 
 // One fighter as the planner sees it.
 struct Contender {
@@ -54,6 +55,12 @@ class Planner {
 
   // The decision of `fighter`, who acts now, against its opponent; the others are obstacles.
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
+
+  // The tree of the same decision, written out to `horizon` ticks from now (as
+  // Plan::record.horizon says) and to at most `most_nodes` nodes. Empty where nobody is to be
+  // fought.
+  DecisionTree tree(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
+                    std::size_t most_nodes) const;
 
   // Rarity: tells the planner what was committed.
   void note_launch(FighterId fighter, ActionId action);
