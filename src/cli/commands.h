@@ -36,6 +36,11 @@ struct HitOptions {
   std::vector<std::string> sweep = {};  // AXIS=FROM:TO:STEP
 };
 
+struct TreeOptions {
+  double at_s = 0;
+  std::size_t nodes = 400;
+};
+
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
 
@@ -44,6 +49,7 @@ int fail(const Error& error);
 
 int run_fight(const std::string& scene, const CommonOptions& options);
 int run_hit(const HitOptions& hit, const CommonOptions& options);
+int run_tree(const std::string& scene, const TreeOptions& tree, const CommonOptions& options);
 int run_replay(const std::string& events_file, const CommonOptions& options);
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);

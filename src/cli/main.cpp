@@ -81,6 +81,18 @@ int run(int argc, char** argv) {
   add_common(*hit, options);
   hit->callback([&] { code = run_hit(hit_options, options); });
 
+  TreeOptions tree_options;
+  CLI::App* tree = app.add_subcommand("tree", "The game tree of one decision: JSON, SVG, a trace");
+  tree->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
+  tree->add_option("--at", tree_options.at_s, "The first decision from this time on, s")
+      ->type_name("T")
+      ->required();
+  tree->add_option("--nodes", tree_options.nodes, "Nodes to write out at most")
+      ->type_name("N")
+      ->check(CLI::Range(1, 20000));
+  add_common(*tree, options);
+  tree->callback([&] { code = run_tree(scene, tree_options, options); });
+
   std::string events_file;
   CLI::App* replay = app.add_subcommand(
       "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");

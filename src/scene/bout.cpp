@@ -9,6 +9,7 @@
 #include "physics/impact.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
+#include "planner/tree.h"
 #include "scene/answer.h"
 #include "scene/hit_replay.h"
 
@@ -132,6 +133,10 @@ Plan Bout::decide(FighterId id) {
   Plan plan = planner_->plan(state_, id, last_contact_);
   record_.decision_ms.push_back(microseconds_since(begin) / 1000);
   return plan;
+}
+
+DecisionTree Bout::tree(FighterId id, const Plan& plan, std::size_t most_nodes) const {
+  return planner_->tree(state_, id, last_contact_, plan.record.horizon, most_nodes);
 }
 
 void Bout::commit(FighterId id, const Plan& plan) {

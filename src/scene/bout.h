@@ -3,6 +3,7 @@
 // to them.
 
 #include <memory>
+#include <optional>
 
 #include "physics/impact.h"
 #include "planner/plan.h"
@@ -23,6 +24,8 @@ class Bout {
   bool has_won(FighterId fighter) const;      // nobody is left to fight
 
   Plan decide(FighterId fighter);
+  // The tree of the decision that `plan` is the outcome of.
+  DecisionTree tree(FighterId fighter, const Plan& plan, std::size_t most_nodes) const;
   void commit(FighterId fighter, const Plan& plan);
   void commit_get_up(FighterId fighter);
   void commit_idle(FighterId fighter);
@@ -66,5 +69,8 @@ class Bout {
   Tick last_contact_ = 0;
   Tick end_;
 };
+
+// Goes on until a fighter must choose: who. Nothing when the bout is over.
+std::optional<FighterId> run_to_decision(Bout& bout);
 
 }  // namespace ringcraft

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "capture/library_file.h"
+#include "cli/commands.h"
+#include "scene/tree_file.h"
+#include "scene/tree_svg.h"
+
+namespace ringcraft {
+
+int run_tree(const std::string& scene_name, const TreeOptions& tree, const CommonOptions& options) {
+  std::vector<std::string> sets = options.sets;
+  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
+  const auto scene = read_scene(scene_name, sets);
+  if (!scene) return fail(scene.error());
+  const auto library = load_library(scene->library);
+  if (!library) return fail(library.error());
+
+  FightOptions fight_options;
+  fight_options.threads = options.threads;
+  fight_options.interrupted = &interrupted;
+  const auto found = tree_at(*library, *scene, tree.at_s, tree.nodes, fight_options);
+  if (interrupted) return 130;
+  if (!found) return fail(found.error());
+
+  const std::filesystem::path folder = options.out.empty()
+                                           ? std::filesystem::path("out") / (scene->name + "_tree")
+                                           : std::filesystem::path(options.out);
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const std::string json = tree_json(*found);
+  if (const auto written = write_file(folder / "tree.json", json); !written) {
+    return fail(written.error());
+  }
+  if (const auto written = write_file(folder / "tree.svg", tree_svg(*found)); !written) {
+    return fail(written.error());
+  }
+  if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{}{} and tree.json\n", tree_text(*found), (folder / "tree.svg").string());
+  }
+  return 0;
+}
+
+}  // namespace ringcraft
