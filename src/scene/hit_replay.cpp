@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "io/events.h"
+#include "physics/response.h"
 #include "planner/root_search.h"
 #include "scene/replay_bytes.h"
 
@@ -37,6 +38,7 @@ void write_outcome(ByteWriter& writer, const ImpactOutcome& outcome) {
   writer.byte(static_cast<std::uint8_t>(outcome.response));
   writer.byte(static_cast<std::uint8_t>(outcome.steps));
   writer.byte(outcome.knockout ? 1 : 0);
+  writer.byte(static_cast<std::uint8_t>(outcome.zone));
   for (const float v : {outcome.direction, outcome.head_spin, outcome.margin}) writer.number(v);
   writer.vector(outcome.com_velocity);
   for (const Vec3& moved : outcome.moved) writer.vector(moved);
@@ -47,6 +49,7 @@ ImpactOutcome read_outcome(ByteReader& reader) {
   outcome.response = static_cast<ResponseKind>(reader.byte());
   outcome.steps = reader.byte();
   outcome.knockout = reader.byte() != 0;
+  outcome.zone = static_cast<TargetZone>(reader.byte());
   outcome.direction = reader.number();
   outcome.head_spin = reader.number();
   outcome.margin = reader.number();
@@ -118,6 +121,7 @@ std::string impossible(const HitReplay& replay) {
     return "a pose";
   }
   if (replay.outcome.response > ResponseKind::knockdown) return "a response";
+  if (replay.outcome.zone > TargetZone::leg) return "a zone";
   return "";
 }
 
@@ -138,8 +142,10 @@ json recomputed(const HitReplay& replay, ImpactOutcome outcome) {
   event.effective_mass = blow.effective_mass;
   event.head_spin = outcome.head_spin;
   event.damage = static_cast<float>(damage) / 1000;
-  event.response = outcome.response;
-  event.steps = outcome.steps;
+  const bool cuts =
+      outcome.knockout || interrupts(blow.blocked, glm::length(blow.impulse), outcome);
+  event.response = cuts ? outcome.response : ResponseKind::absorb;
+  event.steps = cuts ? outcome.steps : 0;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
   return event_json(event, false);
