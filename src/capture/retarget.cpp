@@ -172,6 +172,7 @@ std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& m
   for (const Side side : {Side::left, Side::right}) {
     const std::vector<Vec3>& path = ball[static_cast<std::size_t>(side)];
     std::vector<float> heights;
+    heights.reserve(path.size());
     for (const Vec3& p : path) heights.push_back(p.y);
     const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
     std::nth_element(heights.begin(), low, heights.end());

@@ -234,7 +234,7 @@ int GlbBuilder::add_skeleton(const Skeleton& skeleton, std::array<int, kJointCou
     const Vec3& offset = skeleton.offset[i];
     node.translation = {offset.x, offset.y, offset.z};
     nodes[i] = add_node(std::move(node));
-    const auto parent = static_cast<std::uint8_t>(kParent[i]);
+    const auto parent = static_cast<std::size_t>(kParent[i]);
     if (i > 0) model_.nodes[nodes.at(parent)].children.push_back(nodes[i]);  // the hips have none
   }
   const WorldPose rest = world_pose(skeleton, rest_pose(skeleton));

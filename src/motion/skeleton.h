@@ -52,11 +52,11 @@ constexpr Side other(Side side) {
 }
 
 // Parent of each joint; the hips have none (-1).
-inline constexpr std::array<std::int8_t, kJointCount> kParent = {-1, 0,  1,  2,  3, 4,  //
-                                                                 3,  6,  7,  8,         //
-                                                                 3,  10, 11, 12,        //
-                                                                 0,  14, 15, 16,        //
-                                                                 0,  18, 19, 20};
+inline constexpr std::array<int, kJointCount> kParent = {-1, 0,  1,  2,  3, 4,  //
+                                                         3,  6,  7,  8,         //
+                                                         3,  10, 11, 12,        //
+                                                         0,  14, 15, 16,        //
+                                                         0,  18, 19, 20};
 
 // VRM 1.0 bone name ("leftUpperArm"), and back.
 std::string_view vrm_name(Joint joint);

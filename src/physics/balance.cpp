@@ -53,7 +53,7 @@ Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate) {
 
 Base::Base(std::span<const Vec3> points) {
   std::vector<Vec2> flat;
-  for (const Vec3& p : points) flat.push_back({p.x, p.z});
+  for (const Vec3& p : points) flat.emplace_back(p.x, p.z);
   corners_ = hull(std::move(flat));
 }
 

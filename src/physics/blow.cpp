@@ -107,7 +107,7 @@ class Articulated {
     const std::array<Vec3, 3> axes = {kLeft, kUp, kForward};
     for (int k = 0; k < 3; ++k) columns.add(k, axes[static_cast<std::size_t>(k)], Vec3{});
     for (int k = 0; k < 3; ++k) {
-      const Vec3 w = axes[static_cast<std::size_t>(k)];
+      const Vec3& w = axes[static_cast<std::size_t>(k)];
       columns.add(3 + k, glm::cross(w, point - pivot_[0]), w);
     }
     while (n > 0) {
@@ -119,7 +119,7 @@ class Articulated {
         continue;
       }
       for (int k = 0; k < 3; ++k) {
-        const Vec3 w = axes[static_cast<std::size_t>(k)];
+        const Vec3& w = axes[static_cast<std::size_t>(k)];
         columns.add(first_[i] + k, glm::cross(w, point - pivot_[i]), w);
       }
     }

@@ -59,7 +59,7 @@ constexpr float kNeckShare = .173f;
 struct PartTraits {
   std::string_view name;
   Joint joint;
-  std::int8_t parent;
+  int parent;
 };
 constexpr std::array<PartTraits, kPartCount> kTraits = {{
     {"pelvis", Joint::hips, -1},

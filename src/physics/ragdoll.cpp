@@ -383,7 +383,7 @@ Pose Ragdoll::pose() const {
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const Part part = *part_of(joint_at(j));
     const bool carried = joint_of(part) != joint_at(j);
-    const auto parent = kParent[j];
+    const int parent = kParent[j];
     const Quat above = parent < 0 ? Quat(1, 0, 0, 0) : turn[static_cast<std::size_t>(parent)];
     if (!carried) {
       pose.rotation[j] = glm::normalize(glm::conjugate(above) * motion(part).rotation);

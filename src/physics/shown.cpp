@@ -301,7 +301,7 @@ class Shown {
     still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
     lifted.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
-    const Pose shown = frame_.out(mend_(lifted));
+    Pose shown = frame_.out(mend_(lifted));
     const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
     if (over) rested_ = shown;
     return shown;

@@ -158,7 +158,8 @@ class Drawing {
       const std::string name = kWays[static_cast<std::size_t>(way / 45)];
       const std::string degrees = fmt::format("{}°", way);
       const bool beside = way % 180 != 0;
-      svg_ += text_at(x, y, anchor, beside || name.empty() ? degrees : name + " " + degrees, 12);
+      svg_ += text_at(x, y, anchor,
+                      beside || name.empty() ? degrees : fmt::format("{} {}", name, degrees), 12);
       if (beside && !name.empty()) svg_ += text_at(x, y - 15, anchor, name, 12);
     }
     svg_ += text_at(cx, cy + kRadius + 46, "middle",

@@ -1,6 +1,7 @@
 #include "scene/placed_strike.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -48,14 +49,15 @@ class Sweep {
   std::optional<Contact> first_contact(float distance, Tick at) const {
     for (Tick i = 0; i <= at; ++i) {
       // The target's tick at the contact is its last one.
-      const auto t = static_cast<std::size_t>(window_ - at + i);
-      const auto a = static_cast<std::size_t>(i + 1);
+      const Tick target_tick = window_ - at + i;
+      const auto t = static_cast<std::size_t>(target_tick);
+      const auto a = static_cast<std::size_t>(i) + 1;
       SweptBody attacker, target;
       attacker.before = moved(attacker_[a - 1], forward_ * distance);
       attacker.after = moved(attacker_[a], forward_ * distance);
       target.before = target_[t - 1];
       target.after = target_[t];
-      if (const auto contact = strike_contact(attacker, strike_, target)) {
+      if (auto contact = strike_contact(attacker, strike_, target)) {
         if (i == at) return contact;
         return std::nullopt;
       }
@@ -91,7 +93,7 @@ std::vector<StrikePlace> strike_places(const StrikeQuery& query, std::optional<f
     sweep.add(*distance, places);
     return places;
   }
-  const auto count = static_cast<int>((kFarthestPlace - kNearestPlace) / kPlaceStep + 0.5f);
+  const auto count = static_cast<int>(std::lround((kFarthestPlace - kNearestPlace) / kPlaceStep));
   for (int i = 0; i <= count; ++i) {
     sweep.add(kNearestPlace + kPlaceStep * static_cast<float>(i), places);
   }
