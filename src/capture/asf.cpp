@@ -269,7 +269,7 @@ class Reader {
                              "put it into :hierarchy");
     if (skeleton_.bones.size() != blocks_.size())
       return fault("some bones hang on each other in a ring", "correct :hierarchy");
-    if (!has_length_) skeleton_.notes.push_back("no unit of length: read as inches");
+    if (!has_length_) skeleton_.notes.emplace_back("no unit of length: read as inches");
     for (const AsfBone& bone : skeleton_.bones)
       if (std::count(bone.channels.begin(), bone.channels.end(), AsfChannel::length) > 0)
         skeleton_.notes.push_back(

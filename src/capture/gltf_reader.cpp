@@ -278,7 +278,7 @@ class Reader {
       return value;
     }
     int value = cell[0];
-    if (type == TINYGLTF_COMPONENT_TYPE_BYTE) value = static_cast<std::int8_t>(cell[0]);
+    if (type == TINYGLTF_COMPONENT_TYPE_BYTE && value > 127) value -= 256;
     if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) value = cell[0] | cell[1] << 8;
     if (type == TINYGLTF_COMPONENT_TYPE_SHORT)
       value = static_cast<std::int16_t>(cell[0] | cell[1] << 8);

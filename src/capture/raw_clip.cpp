@@ -85,7 +85,7 @@ bool replace_junk_first_frame(RawClip& clip) {
     clip.rotation[clip.at(0, j)] = clip.rotation[clip.at(1, j)];
     clip.translation[clip.at(0, j)] = clip.translation[clip.at(1, j)];
   }
-  clip.notes.push_back("frame 0 jumps (a T-pose?): replaced by frame 1");
+  clip.notes.emplace_back("frame 0 jumps (a T-pose?): replaced by frame 1");
   return true;
 }
 

@@ -138,6 +138,7 @@ void smooth_free_ankles(const std::vector<BodyTargets>& targets, std::vector<Pos
 // Lowers the pelvis, and the hands with it, where a standing leg would not reach its foot.
 void keep_in_reach(const Skeleton& skeleton, std::vector<BodyTargets>& targets) {
   std::vector<float> sink;
+  sink.reserve(targets.size());
   for (const BodyTargets& t : targets) sink.push_back(missing_reach(skeleton, t, kStraightestLeg));
   widen(sink, kSinkTicks);
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i].pelvis.y -= sink[i];

@@ -115,11 +115,13 @@ std::vector<Placement> root_track(const SheetAction& action, const std::vector<S
   track.add(finish, {end.x, end.z, end.yaw});
   const Tick last = ticks(action.length);
   std::vector<Vec3> values;
+  values.reserve(static_cast<std::size_t>(last) + 1);
   for (Tick tick = 0; tick <= last; ++tick) {
     values.push_back(track.at(static_cast<float>(seconds(tick))));
   }
   smooth(values, 4);
   std::vector<Placement> root;
+  root.reserve(values.size());
   for (const Vec3& v : values) root.push_back({v.x, v.y, v.z});
   root.front() = {};
   return root;

@@ -17,6 +17,7 @@ float quantile(std::vector<float> values, double share) {
 
 float standing_height(const std::vector<Vec3>& path, const std::vector<std::size_t>& upright) {
   std::vector<float> heights;
+  heights.reserve(upright.size());
   for (const std::size_t i : upright) heights.push_back(path[i].y);
   return quantile(std::move(heights), 0.05);
 }
