@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/retarget.h"
-#include "capture/smooth.h"
+#include "motion/smooth.h"
 #include "motion/state_machine.h"
 
 namespace ringcraft {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "capture/smooth.h"
+#include "motion/smooth.h"
 
 namespace ringcraft {
 namespace {

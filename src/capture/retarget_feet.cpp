@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "capture/retarget.h"
-#include "capture/smooth.h"
+#include "motion/smooth.h"
 #include "motion/ik.h"
 
 namespace ringcraft {

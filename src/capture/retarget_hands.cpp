@@ -1,7 +1,7 @@
 // Hands that go the captured way although their shoulders sit elsewhere: see carry_hands in
 // retarget.h.
 #include "capture/retarget.h"
-#include "capture/smooth.h"
+#include "motion/smooth.h"
 #include "motion/ik.h"
 
 namespace ringcraft {

@@ -23,6 +23,11 @@ struct CommonOptions {
   int verbose = 0;
 };
 
+struct FightCommandOptions {
+  std::vector<std::string> exports = {};  // bvh, vrma
+  bool root_motion = false;
+};
+
 struct HitOptions {
   std::string library = "kickboxing";
   std::string body = "middleweight";
@@ -47,7 +52,8 @@ extern std::atomic<bool> interrupted;
 // Prints one line on stderr and returns the error's exit code.
 int fail(const Error& error);
 
-int run_fight(const std::string& scene, const CommonOptions& options);
+int run_fight(const std::string& scene, const FightCommandOptions& fight,
+              const CommonOptions& options);
 int run_hit(const HitOptions& hit, const CommonOptions& options);
 int run_tree(const std::string& scene, const TreeOptions& tree, const CommonOptions& options);
 int run_replay(const std::string& events_file, const CommonOptions& options);

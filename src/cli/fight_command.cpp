@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -11,7 +12,8 @@
 
 namespace ringcraft {
 
-int run_fight(const std::string& scene_name, const CommonOptions& options) {
+int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
+              const CommonOptions& options) {
   std::vector<std::string> sets = options.sets;
   if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
   const auto scene = read_scene(scene_name, sets);
@@ -40,7 +42,12 @@ int run_fight(const std::string& scene_name, const CommonOptions& options) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) fmt::print(stderr, "\n");
 
-  const auto summary = write_fight(folder, *scene, *library, record, wall.count(), options.threads);
+  const auto wants = [&](std::string_view format) {
+    return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
+  };
+  const FightExtras extras{wants("bvh"), wants("vrma"), fight.root_motion};
+  const auto summary =
+      write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
   fmt::print("{}\n", options.json ? summary->report : summary->text);
   return record.interrupted ? 130 : 0;

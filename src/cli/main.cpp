@@ -54,8 +54,16 @@ int run(int argc, char** argv) {
   std::string scene = "duel";
   CLI::App* fight = app.add_subcommand("fight", "Simulate a scene: GLB, events, report and a page");
   fight->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
+  FightCommandOptions fight_options;
+  fight->add_option("--export", fight_options.exports, "Also bvh or vrma, one file a fighter")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"bvh", "vrma"}))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  fight->add_flag("--root-motion", fight_options.root_motion,
+                  "fight.glb moves each fighter's own node over the ground");
   add_common(*fight, options);
-  fight->callback([&] { code = run_fight(scene, options); });
+  fight->callback([&] { code = run_fight(scene, fight_options, options); });
 
   HitOptions hit_options;
   CLI::App* hit =

@@ -11,6 +11,7 @@
 #include "io/mannequin.h"
 #include "io/outputs.h"
 #include "io/ring.h"
+#include "io/root_motion.h"
 
 namespace ringcraft {
 
@@ -82,8 +83,11 @@ class GlbBuilder {
     model_.animations[0].name = "fight";
   }
 
-  // Nodes, mesh, skin and channels of one fighter.
-  void add_fighter(std::size_t number, const FighterLook& look, const FighterTrack& track);
+  // Nodes, mesh, skin and channels of one fighter; `root_motion` moves what can be so to its root.
+  void add_fighter(std::size_t number, const FighterLook& look, const FighterTrack& track,
+                   bool root_motion);
+  // Nodes and channels of one fighter's bones, as a VRM animation.
+  void add_vrm_animation(const FighterLook& look, const FighterTrack& track);
   void add_ring(float half);
   // Key times, shared by all fighters: `count` keys at 60 Hz.
   void set_key_count(std::size_t count);
@@ -103,8 +107,10 @@ class GlbBuilder {
   int single_time();
   int add_material(const std::string& name, Vec3 colour, double roughness);
   int add_mesh(const std::string& name, const FighterLook& look);
-  int add_skeleton(const Skeleton& skeleton, std::array<int, kJointCount>& nodes);
+  std::array<int, kJointCount> add_skeleton(const Skeleton& skeleton);
+  int add_skin(const Skeleton& skeleton, const std::array<int, kJointCount>& nodes);
   void add_channel(int node, const char* path, int input, int output);
+  void add_placement(int node, const std::vector<Placement>& roots);
   void add_motion(const std::array<int, kJointCount>& nodes, const FighterTrack& track);
 
   tinygltf::Model model_;
@@ -227,7 +233,8 @@ int GlbBuilder::add_mesh(const std::string& name, const FighterLook& look) {
   return static_cast<int>(model_.meshes.size()) - 1;
 }
 
-int GlbBuilder::add_skeleton(const Skeleton& skeleton, std::array<int, kJointCount>& nodes) {
+std::array<int, kJointCount> GlbBuilder::add_skeleton(const Skeleton& skeleton) {
+  std::array<int, kJointCount> nodes{};
   for (std::size_t i = 0; i < kJointCount; ++i) {
     tinygltf::Node node;
     node.name = std::string(vrm_name(joint_at(i)));
@@ -237,6 +244,10 @@ int GlbBuilder::add_skeleton(const Skeleton& skeleton, std::array<int, kJointCou
     const auto parent = static_cast<std::size_t>(kParent[i]);
     if (i > 0) model_.nodes[nodes.at(parent)].children.push_back(nodes[i]);  // the hips have none
   }
+  return nodes;
+}
+
+int GlbBuilder::add_skin(const Skeleton& skeleton, const std::array<int, kJointCount>& nodes) {
   const WorldPose rest = world_pose(skeleton, rest_pose(skeleton));
   std::vector<std::array<float, 16>> matrices;
   for (const Vec3& joint : rest.position) {
@@ -266,11 +277,27 @@ nlohmann::json capsules_json(const BodyModel& body) {
   return capsules;
 }
 
-void GlbBuilder::add_fighter(std::size_t number, const FighterLook& look,
-                             const FighterTrack& track) {
+// Unit in double precision, so that rounding to float leaves no drift; x, y, z, w.
+std::array<float, 4> key_of(Quat rotation) {
+  const double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  if (!(length > 1e-6)) return {0, 0, 0, 1};
+  return {static_cast<float>(x / length), static_cast<float>(y / length),
+          static_cast<float>(z / length), static_cast<float>(w / length)};
+}
+
+// The track as seen from its moving root.
+FighterTrack below(const std::vector<Placement>& roots, FighterTrack track) {
+  for (std::size_t i = 0; i < track.frames.size(); ++i)
+    track.frames[i] = placed(track.frames[i], inverse(roots[i]));
+  return track;
+}
+
+void GlbBuilder::add_fighter(std::size_t number, const FighterLook& look, const FighterTrack& track,
+                             bool root_motion) {
   const std::string name = "fighter" + std::to_string(number);
-  std::array<int, kJointCount> nodes{};
-  const int skin = add_skeleton(look.body.skeleton, nodes);
+  const std::array<int, kJointCount> nodes = add_skeleton(look.body.skeleton);
+  const int skin = add_skin(look.body.skeleton, nodes);
   tinygltf::Node root;
   root.name = name;
   root.children = {nodes[0]};
@@ -289,7 +316,41 @@ void GlbBuilder::add_fighter(std::size_t number, const FighterLook& look,
   const int mesh_node = add_node(std::move(mesh));
   model_.scenes[0].nodes.push_back(root_node);
   model_.scenes[0].nodes.push_back(mesh_node);
+  if (!root_motion || track.frames.empty()) {
+    add_motion(nodes, track);
+    return;
+  }
+  const std::vector<Placement> roots = ringcraft::root_motion(track);
+  add_placement(root_node, roots);
+  add_motion(nodes, below(roots, track));
+}
+
+// The extension VRMC_vrm_animation 1.0: which node is which bone.
+void GlbBuilder::add_vrm_animation(const FighterLook& look, const FighterTrack& track) {
+  const std::array<int, kJointCount> nodes = add_skeleton(look.body.skeleton);
+  model_.scenes[0].nodes.push_back(nodes[0]);
+  nlohmann::json bones;
+  for (std::size_t i = 0; i < kJointCount; ++i)
+    bones[std::string(vrm_name(joint_at(i)))] = {{"node", nodes.at(i)}};
+  model_.extensions["VRMC_vrm_animation"] =
+      value_of({{"specVersion", "1.0"}, {"humanoid", {{"humanBones", bones}}}});
+  model_.extensionsUsed.emplace_back("VRMC_vrm_animation");
   add_motion(nodes, track);
+}
+
+// Keys of a node that stands on the ground.
+void GlbBuilder::add_placement(int node, const std::vector<Placement>& roots) {
+  std::vector<std::array<float, 3>> places;
+  std::vector<std::array<float, 4>> turns;
+  Quat last{1, 0, 0, 0};
+  for (std::size_t key = 0; key < key_count_; ++key) {
+    const Placement& root = roots[std::min(key * kTicksPerKey, roots.size() - 1)];
+    places.push_back({root.x, 0, root.z});
+    last = in_hemisphere_of(yaw_rotation(root.yaw), last);
+    turns.push_back(key_of(last));
+  }
+  add_channel(node, "translation", key_times_, add_data(places, kKeyVec3));
+  add_channel(node, "rotation", key_times_, add_data(turns, kKeyQuat));
 }
 
 void GlbBuilder::set_key_count(std::size_t count) {
@@ -319,15 +380,6 @@ void GlbBuilder::add_channel(int node, const char* path, int input, int output) 
   channel.target_path = path;
   animation.samplers.push_back(std::move(sampler));
   animation.channels.push_back(std::move(channel));
-}
-
-// Unit in double precision, so that rounding to float leaves no drift; x, y, z, w.
-std::array<float, 4> key_of(Quat rotation) {
-  const double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
-  const double length = std::sqrt(x * x + y * y + z * z + w * w);
-  if (!(length > 1e-6)) return {0, 0, 0, 1};
-  return {static_cast<float>(x / length), static_cast<float>(y / length),
-          static_cast<float>(z / length), static_cast<float>(w / length)};
 }
 
 template <class Key>
@@ -419,10 +471,18 @@ std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& 
   builder.set_key_count((frames + kTicksPerKey - 1) / kTicksPerKey);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     builder.add_fighter(i, looks[i],
-                        i < timeline.tracks.size() ? timeline.tracks[i] : FighterTrack{});
+                        i < timeline.tracks.size() ? timeline.tracks[i] : FighterTrack{},
+                        settings.root_motion);
   }
   if (settings.ring_half > 0) builder.add_ring(settings.ring_half);
   builder.set_events(timeline);
+  return builder.bytes();
+}
+
+std::string fighter_vrma(const FighterLook& look, const FighterTrack& track) {
+  GlbBuilder builder;
+  builder.set_key_count((track.frames.size() + kTicksPerKey - 1) / kTicksPerKey);
+  builder.add_vrm_animation(look, track);
   return builder.bytes();
 }
 

@@ -23,6 +23,7 @@ struct FighterLook {
 
 struct GlbSettings {
   float ring_half = 0;  // m: half the side of a ring of plain boxes (node `ring`); 0 is no ring
+  bool root_motion = false;  // node `fighterN` moves over the ground, the hips relative to it
 };
 
 // One skinned mannequin per fighter (node `fighter0` ... holds the skeleton and extras with the
@@ -30,6 +31,10 @@ struct GlbSettings {
 // baked; events in animations[0].extras. Bytes of a .glb.
 std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& looks,
                       const GlbSettings& settings = {});
+
+// One fighter's shown motion as a VRM animation (.vrma): glTF with the extension VRMC_vrm_animation
+// 1.0, T-pose at rest, 60 Hz; plays on any VRM 1.0 character.
+std::string fighter_vrma(const FighterLook& look, const FighterTrack& track);
 
 // A header line, then one JSON object per event.
 std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook>& looks,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "io/bvh_writer.h"
 #include "io/report.h"
 
 namespace ringcraft {
@@ -65,22 +66,31 @@ std::string text_of(const nlohmann::json& report, const std::filesystem::path& p
 
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
-                                 double wall_seconds, int threads) {
+                                 double wall_seconds, int threads, const FightExtras& extras) {
   const std::vector<FighterLook> looks = looks_of(scene, record);
   const nlohmann::json report =
       report_json(record.timeline, looks, library, facts_of(scene, record));
-  const std::string glb = fight_glb(record.timeline, looks, {scene.ring / 2});
+  const std::string glb = fight_glb(record.timeline, looks, {scene.ring / 2, extras.root_motion});
   const std::string events = events_jsonl(record.timeline, looks, header_of(scene));
   const auto page = fight_html(glb, events, report);
   if (!page) return tl::unexpected(page.error());
   const ClockFacts clock{wall_seconds, threads, record.decision_ms, record.impulse_step_us};
   const std::string timing = timing_json(record.timeline, clock).dump(1) + "\n";
   const std::string report_text = report.dump(1) + "\n";
-  for (const auto& [name, bytes] : {std::pair<const char*, const std::string&>{"fight.glb", glb},
-                                    {"events.jsonl", events},
-                                    {"report.json", report_text},
-                                    {"timing.json", timing},
-                                    {"fight.html", *page}}) {
+  std::vector<std::pair<std::string, std::string>> files = {{"fight.glb", glb},
+                                                            {"events.jsonl", events},
+                                                            {"report.json", report_text},
+                                                            {"timing.json", timing},
+                                                            {"fight.html", *page}};
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const FighterTrack& track = record.timeline.tracks[i];
+    if (extras.bvh)
+      files.emplace_back(fmt::format("fighter{}.bvh", i),
+                         fighter_bvh(looks[i].body.skeleton, track));
+    if (extras.vrma)
+      files.emplace_back(fmt::format("fighter{}.vrma", i), fighter_vrma(looks[i], track));
+  }
+  for (const auto& [name, bytes] : files) {
     if (const auto written = write_file(folder / name, bytes); !written) {
       return tl::unexpected(written.error());
     }

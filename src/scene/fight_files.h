@@ -8,6 +8,13 @@
 
 namespace ringcraft {
 
+// What is written only on request.
+struct FightExtras {
+  bool bvh = false;          // fighter0.bvh ...: one a fighter
+  bool vrma = false;         // fighter0.vrma ...: VRM animations, one a fighter
+  bool root_motion = false;  // fight.glb moves each fighter's own node over the ground
+};
+
 struct FightSummary {
   std::string report;  // report.json's text
   std::string text;    // one line: what to open
@@ -16,6 +23,6 @@ struct FightSummary {
 // Writes all files into `folder`; each appears whole or not at all.
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
-                                 double wall_seconds, int threads);
+                                 double wall_seconds, int threads, const FightExtras& extras = {});
 
 }  // namespace ringcraft

@@ -258,5 +258,45 @@ TEST(GlbOfNothing, IsStillAReadableFile) {
   EXPECT_EQ(model.animations.size(), 0u);
 }
 
+// The root's key times the hips' key is where the hips are without root motion.
+TEST(GlbRootMotion, MovesTheFightersNodeAndLeavesTheBodyWhereItIs) {
+  GlbSettings settings;
+  settings.root_motion = true;
+  tinygltf::Model model;
+  std::string warnings, errors;
+  const std::string bytes = fight_glb(sample::timeline(), sample::looks(), settings);
+  ASSERT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
+      &model, &errors, &warnings, reinterpret_cast<const unsigned char*>(bytes.data()),
+      static_cast<unsigned int>(bytes.size())));
+  const auto keys = [&](const std::string& node, const std::string& path) {
+    std::vector<float> values;
+    for (const tinygltf::AnimationChannel& channel : model.animations[0].channels) {
+      if (model.nodes[channel.target_node].name != node || channel.target_path != path) continue;
+      const auto& accessor = model.accessors[model.animations[0].samplers[channel.sampler].output];
+      const auto& view = model.bufferViews[accessor.bufferView];
+      values.resize(view.byteLength / sizeof(float));
+      std::memcpy(values.data(), model.buffers[0].data.data() + view.byteOffset, view.byteLength);
+      break;  // fighter 0 comes first
+    }
+    return values;
+  };
+  const std::vector<float> places = keys("fighter0", "translation");
+  const std::vector<float> turns = keys("fighter0", "rotation");
+  const std::vector<float> hips = keys("hips", "translation");
+  ASSERT_EQ(places.size(), hips.size());
+  ASSERT_EQ(turns.size() / 4, places.size() / 3);
+  float travelled = 0;
+  for (std::size_t k = 0; k < places.size() / 3; ++k) {
+    const Quat turn(turns[4 * k + 3], turns[4 * k], turns[4 * k + 1], turns[4 * k + 2]);
+    const Vec3 at = Vec3(places[3 * k], places[3 * k + 1], places[3 * k + 2]) +
+                    turn * Vec3(hips[3 * k], hips[3 * k + 1], hips[3 * k + 2]);
+    const FighterTrack& track = sample::timeline().tracks[0];
+    const Vec3 shown = track.frames[std::min(2 * k, track.frames.size() - 1)].hips;
+    EXPECT_LT(glm::distance(at, shown), 1e-4f) << k;
+    travelled = std::max(travelled, glm::length(Vec3(places[3 * k], 0, places[3 * k + 2])));
+  }
+  EXPECT_GT(travelled, 0.01f);
+}
+
 }  // namespace
 }  // namespace ringcraft

@@ -1,4 +1,4 @@
-#include "capture/smooth.h"
+#include "motion/smooth.h"
 
 #include <algorithm>
 #include <cmath>
