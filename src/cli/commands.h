@@ -46,6 +46,11 @@ struct TreeOptions {
   std::size_t nodes = 400;
 };
 
+struct SparringOptions {
+  std::string library = "kickboxing";
+  std::string attacker = "middleweight", defender = "middleweight";
+};
+
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
 
@@ -56,6 +61,7 @@ int run_fight(const std::string& scene, const FightCommandOptions& fight,
               const CommonOptions& options);
 int run_hit(const HitOptions& hit, const CommonOptions& options);
 int run_tree(const std::string& scene, const TreeOptions& tree, const CommonOptions& options);
+int run_sparring(const SparringOptions& sparring, const CommonOptions& options);
 int run_replay(const std::string& events_file, const CommonOptions& options);
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);

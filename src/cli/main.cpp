@@ -101,6 +101,16 @@ int run(int argc, char** argv) {
   add_common(*tree, options);
   tree->callback([&] { code = run_tree(scene, tree_options, options); });
 
+  SparringOptions sparring_options;
+  CLI::App* sparring = app.add_subcommand(
+      "sparring", "Every attack against every defense: records and the offense/defense table");
+  sparring->add_option("LIBRARY", sparring_options.library,
+                       "Manifest, folder, or the name of one in assets");
+  sparring->add_option("--attacker", sparring_options.attacker, "Body of the attacker");
+  sparring->add_option("--defender", sparring_options.defender, "Body of the defender");
+  add_common(*sparring, options);
+  sparring->callback([&] { code = run_sparring(sparring_options, options); });
+
   std::string events_file;
   CLI::App* replay = app.add_subcommand(
       "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");

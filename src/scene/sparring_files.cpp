@@ -1,0 +1,144 @@
+#include "scene/sparring_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace ringcraft {
+
+namespace {
+
+constexpr const char* kPage =
+    "<!doctype html><meta charset=\"utf-8\"><title>Offense/defense table {0}</title>\n"
+    "<style>body{{font:13px system-ui;margin:2em}}table{{border-collapse:collapse}}"
+    "td,th{{padding:.15em .5em;border:1px solid #ddd;text-align:right}}"
+    "th{{font-weight:500;text-align:left}}thead th{{writing-mode:vertical-rl}}</style>\n"
+    "<h1>Offense/defense table of {0}</h1>\n"
+    "<p>Share of launches that kept the blow from landing clean, in percent, at the defense's best "
+    "launch offset; below it that offset in ms after the attack's launch.</p>\n"
+    "<table><thead><tr><th>attack{1}</tr></thead><tbody>\n{2}</tbody></table>\n";
+
+std::vector<ActionId> attacks_of(const MotionLibrary& library, const OffenseDefenseTable& table) {
+  std::vector<ActionId> attacks;
+  for (const ActionId id : library.launchable())
+    if (!table.against(id).empty()) attacks.push_back(id);
+  return attacks;
+}
+
+std::vector<ActionId> defenses_of(const MotionLibrary& library) {
+  std::vector<ActionId> defenses;
+  for (const ActionId id : library.launchable())
+    if (library.action(id).defense) defenses.push_back(id);
+  return defenses;
+}
+
+int milliseconds(Tick offset) {
+  return static_cast<int>(std::lround(1000 * seconds(offset)));
+}
+
+// Attacks of one blow by kind and zone, combinations apart.
+std::string blow_of(const Action& action) {
+  if (action.strikes.size() > 1) return "combination";
+  return fmt::format("{} to the {}", name_of(action.strikes.front().kind),
+                     name_of(action.strikes.front().zone));
+}
+
+}  // namespace
+
+std::string records_csv(const MotionLibrary& library, const std::vector<SparringRecord>& records) {
+  std::string csv = "attack,defense,offset_s,distance_m,bearing_deg,facing_deg,end\n";
+  for (const SparringRecord& record : records) {
+    const Placement& at = record.relative;
+    fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{:.2f},{:.1f},{:.1f},{}\n",
+                   library.action(record.attack).name, library.action(record.defense).name,
+                   seconds(record.offset), std::hypot(at.x, at.z), degrees(yaw_of(at.position())),
+                   degrees(wrapped_angle(at.yaw)), name_of(record.end));
+  }
+  return csv;
+}
+
+std::string table_json(const MotionLibrary& library, const OffenseDefenseTable& table) {
+  nlohmann::json attacks = nlohmann::json::array();
+  for (const ActionId attack : attacks_of(library, table)) {
+    nlohmann::json defenses = nlohmann::json::array();
+    for (const DefenseEntry& entry : table.against(attack)) {
+      nlohmann::json offsets = nlohmann::json::array();
+      for (const ExchangeTiming& timing : timings(entry))
+        offsets.push_back({{"offset_ms", milliseconds(timing.offset)},
+                           {"launched", timing.launched},
+                           {"worked", timing.worked}});
+      defenses.push_back({{"defense", library.action(entry.defense).name},
+                          {"launched", entry.launched},
+                          {"worked", entry.worked},
+                          {"best_offset_ms", milliseconds(best_timing(entry).offset)},
+                          {"lift", std::round(1000 * table.lift(attack, entry.defense)) / 1000},
+                          {"offsets", std::move(offsets)}});
+    }
+    attacks.push_back({{"attack", library.action(attack).name}, {"defenses", std::move(defenses)}});
+  }
+  return nlohmann::json{{"library", library.name()}, {"attacks", std::move(attacks)}}.dump(1) +
+         "\n";
+}
+
+std::string table_page(const MotionLibrary& library, const OffenseDefenseTable& table) {
+  const std::vector<ActionId> defenses = defenses_of(library);
+  std::string head, rows;
+  for (const ActionId id : defenses) head += "<th>" + library.action(id).name;
+  for (const ActionId attack : attacks_of(library, table)) {
+    rows += "<tr><th>" + library.action(attack).name;
+    for (const ActionId defense : defenses) {
+      const DefenseEntry* entry = table.entry(attack, defense);
+      if (entry == nullptr) {
+        rows += "<td>";
+        continue;
+      }
+      const ExchangeTiming best = best_timing(*entry);
+      rows +=
+          fmt::format("<td style=\"background:hsl(140 45% {:.0f}%)\">{:.0f}<br><small>{}</small>",
+                      100 - 45 * best.share(), 100 * best.share(), milliseconds(best.offset));
+    }
+    rows += "</tr>\n";
+  }
+  return fmt::format(kPage, library.name(), head, rows);
+}
+
+std::string table_text(const MotionLibrary& library, const Sparring& sparring,
+                       const OffenseDefenseTable& table) {
+  // Per kind of blow the mean over its attacks of each defense's share at its best timing.
+  struct Mean {
+    double sum = 0;
+    int count = 0;
+    double value() const { return sum / count; }
+  };
+  std::map<std::string, std::map<ActionId, Mean>> blows;
+  for (const ActionId attack : attacks_of(library, table)) {
+    for (const DefenseEntry& entry : table.against(attack)) {
+      Mean& mean = blows[blow_of(library.action(attack))][entry.defense];
+      mean.sum += static_cast<double>(best_timing(entry).share());
+      ++mean.count;
+    }
+  }
+  std::string text = fmt::format("{} records\n", sparring.records.size());
+  for (const ActionId attack : sparring.unlanded)
+    text += fmt::format("{} lands on no standing guard\n", library.action(attack).name);
+  for (const auto& [blow, means] : blows) {
+    std::vector<std::pair<ActionId, double>> sorted;
+    sorted.reserve(means.size());
+    for (const auto& [defense, mean] : means) sorted.emplace_back(defense, mean.value());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    text += fmt::format("{}:", blow);
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, sorted.size()); ++i)
+      text += fmt::format(" {} {:.0f} %{}", library.action(sorted[i].first).name,
+                          100 * sorted[i].second,
+                          i + 1 < std::min<std::size_t>(5, sorted.size()) ? "," : "");
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace ringcraft
