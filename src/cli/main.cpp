@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
+#include "cli/study_command.h"
 
 namespace ringcraft {
 
@@ -110,6 +111,8 @@ int run(int argc, char** argv) {
   sparring->add_option("--defender", sparring_options.defender, "Body of the defender");
   add_common(*sparring, options);
   sparring->callback([&] { code = run_sparring(sparring_options, options); });
+
+  add_study_command(app, add_common, options, code);
 
   std::string events_file;
   CLI::App* replay = app.add_subcommand(

@@ -18,6 +18,7 @@ class Bout {
   ~Bout();
 
   const FightState& state() const { return state_; }
+  Tick last_contact() const { return last_contact_; }
   bool over() const;
   bool must_get_up(FighterId fighter) const;  // fell, and its time on the ground is over
   bool is_out(FighterId fighter) const;       // knocked out: lies until the end

@@ -1,0 +1,148 @@
+#include "cli/study_command.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "base/file.h"
+#include "capture/library_file.h"
+#include "capture/profile.h"
+#include "capture/read_capture.h"
+#include "capture/retarget.h"
+#include "scene/scene_file.h"
+#include "scene/study_clips.h"
+#include "scene/study_penetration.h"
+
+namespace ringcraft {
+
+namespace {
+
+struct StudyEntry {
+  const char* name;
+  const char* says;
+  const char* takes;        // SCENE, A B or nothing
+  std::size_t least, most;  // arguments
+  int (*run)(const StudyOptions&, const CommonOptions&);
+};
+
+// One line a study.
+constexpr StudyEntry kStudies[] = {
+    {"penetration", "Pruning by penetration: threshold and check rate", "[SCENE]", 0, 1,
+     run_penetration_study},
+    {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
+     run_clips_study},
+};
+
+Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
+  std::vector<std::string> sets = options.sets;
+  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
+  if (study.duration_s) sets.push_back(fmt::format("duration_s={}", *study.duration_s));
+  return read_scene(study.what.empty() ? "duel" : study.what.front(), sets);
+}
+
+bool is_file(const std::string& name) {
+  return std::filesystem::path(name).has_extension() || name.find('/') != std::string::npos;
+}
+
+// A motion to be placed: an action of the library, or a capture.
+Result<Action> motion_of(const std::string& name, const MotionLibrary& library) {
+  if (!is_file(name)) {
+    const ActionId id = library.find(name);
+    if (id.valid()) return library.action(id);
+    return usage_error(name, "", "the library has no such action",
+                       "`ringcraft library inspect` lists them; a capture needs its extension");
+  }
+  const auto raw = read_capture(name);
+  if (!raw) return tl::unexpected(raw.error());
+  const auto profiles = read_profiles(assets_folder() / "profiles");
+  if (!profiles) return tl::unexpected(profiles.error());
+  const auto profile = best_profile(*profiles, *raw);
+  if (!profile) return tl::unexpected(profile.error());
+  auto clip = retarget(*raw, *profile, library.skeleton());
+  if (!clip) return tl::unexpected(clip.error());
+  Action action;
+  action.name = std::filesystem::path(name).stem().string();
+  action.clip = from_origin(library.skeleton(), *clip);
+  action.source = name;
+  return action;
+}
+
+}  // namespace
+
+int finish_study(const Study& study, int code, const CommonOptions& options) {
+  const std::filesystem::path folder = options.out.empty()
+                                           ? std::filesystem::path("out") / ("study_" + study.name)
+                                           : std::filesystem::path(options.out);
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  if (const auto written = write_study(folder, study); !written) return fail(written.error());
+  if (options.json) {
+    fmt::print("{}", study_json(study));
+  } else {
+    for (const std::string& one : study.said) fmt::print("{}\n", one);
+    fmt::print("{}open {}\n", study_text(study.table), (folder / "study.html").string());
+  }
+  return study.interrupted ? 130 : code;
+}
+
+int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
+  const auto scene = scene_of(study, options);
+  if (!scene) return fail(scene.error());
+  const auto library = load_library(scene->library);
+  if (!library) return fail(library.error());
+  StudyRun run;
+  run.threads = options.threads;
+  run.interrupted = &interrupted;
+  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return finish_study(penetration_study(*library, *scene, {}, run), 0, options);
+}
+
+int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
+  const auto library = load_library(study.library);
+  if (!library) return fail(library.error());
+  const auto spec = read_body(assets_folder() / "bodies" / (study.body + ".toml"));
+  if (!spec) return fail(spec.error());
+  const auto a = motion_of(study.what[0], *library), b = motion_of(study.what[1], *library);
+  if (!a) return fail(a.error());
+  if (!b) return fail(b.error());
+  const BodyModel body = make_body(*spec);
+  const PlacedClip first{a->name, &*a, &body}, second{b->name, &*b, &body};
+  const ClipPlacement placement{study.distance_m, ticks(study.later_s), !study.all_contacts};
+  const Study found = clips_study(first, second, placement, study.limit_m);
+  bool beyond = false;
+  for (const auto& row : found.table.rows) beyond |= std::get<std::int64_t>(row.back()) != 0;
+  return finish_study(found, beyond ? 1 : 0, options);
+}
+
+void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),
+                       CommonOptions& options, int& code) {
+  CLI::App* command =
+      app.add_subcommand("study", "One question over many values: table, CSV, JSON and a picture");
+  command->require_subcommand(1);
+  const auto study = std::make_shared<StudyOptions>();  // outlives this call, as the parser does
+  for (const StudyEntry& entry : kStudies) {
+    CLI::App* one = command->add_subcommand(entry.name, entry.says);
+    if (entry.most > 0) {
+      one->add_option("WHAT", study->what, entry.takes)
+          ->type_name(entry.takes)
+          ->expected(static_cast<int>(entry.least), static_cast<int>(entry.most))
+          ->required(entry.least > 0);
+    }
+    one->add_option("--bouts", study->bouts, "Bouts of each pairing")->check(CLI::Range(1, 10000));
+    one->add_option("--duration", study->duration_s, "Length of a bout, s")
+        ->check(CLI::Range(0.5, 3600.0));
+    one->add_option("--library", study->library, "Motion library");
+    one->add_option("--body", study->body, "A file of assets/bodies");
+    one->add_option("--distance", study->distance_m, "m between the roots")
+        ->check(CLI::Range(0.0, 20.0));
+    one->add_option("--later", study->later_s, "s by which the second motion begins later")
+        ->check(CLI::Range(0.0, 600.0));
+    one->add_option("--limit", study->limit_m, "Depth that is still right, m")
+        ->check(CLI::Range(0.0, 1.0));
+    one->add_flag("--all-contacts", study->all_contacts, "Count what a strike is meant to touch");
+    add_common(*one, options);
+    one->callback([&code, &options, study, run = entry.run] { code = run(*study, options); });
+  }
+}
+
+}  // namespace ringcraft

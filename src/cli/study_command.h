@@ -1,0 +1,41 @@
+#pragma once
+// `ringcraft study NAME`: one question, tried over many values; a table, a CSV and a picture.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "scene/study.h"
+
+namespace CLI {
+class App;
+}
+
+namespace ringcraft {
+
+// What the studies understand besides the common options; each says which it uses.
+struct StudyOptions {
+  std::vector<std::string> what = {};  // SCENE, or the two motions of `clips`
+  std::string library = "kickboxing";
+  std::string body = "middleweight";
+  std::optional<int> bouts;
+  std::optional<double> duration_s;
+  float distance_m = 0.95f;  // between the two motions
+  double later_s = 0;        // by which the second motion begins later
+  float limit_m = 0.02f;     // deeper is a fault
+  bool all_contacts = false;
+};
+
+int run_penetration_study(const StudyOptions& study, const CommonOptions& options);
+int run_clips_study(const StudyOptions& study, const CommonOptions& options);
+
+// Writes the study's files and prints its table (or its JSON); the exit code is `code`, or 130
+// where it was interrupted.
+int finish_study(const Study& study, int code, const CommonOptions& options);
+
+// Adds `study` to the command; `code` receives the exit code.
+void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),
+                       CommonOptions& options, int& code);
+
+}  // namespace ringcraft

@@ -1,0 +1,167 @@
+#include "scene/study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+
+namespace ringcraft {
+namespace {
+
+std::string cell_text(const StudyCell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *whole);
+  const double value = std::get<double>(cell);
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string();
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+nlohmann::ordered_json cell_json(const StudyCell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return *whole;
+  const double value = std::get<double>(cell);
+  if (!std::isfinite(value)) return nullptr;
+  return value;
+}
+
+nlohmann::ordered_json rows_json(const StudyTable& table) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json one = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      one[table.columns[i]] = cell_json(row[i]);
+    rows.push_back(std::move(one));
+  }
+  return rows;
+}
+
+std::string html_escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string html_table(const StudyTable& table) {
+  std::string out = "<table><tr>";
+  for (const std::string& column : table.columns) out += "<th>" + html_escaped(column);
+  for (const auto& row : table.rows) {
+    out += "<tr>";
+    for (const StudyCell& cell : row) out += "<td>" + html_escaped(cell_text(cell));
+  }
+  return out + "</table>\n";
+}
+
+}  // namespace
+
+std::string study_csv(const StudyTable& table) {
+  std::string out;
+  const auto line = [&](const auto& cells, const auto& text_of) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i > 0) out += ',';
+      out += quoted(text_of(cells[i]));
+    }
+    out += '\n';
+  };
+  line(table.columns, [](const std::string& name) { return name; });
+  for (const auto& row : table.rows) line(row, cell_text);
+  return out;
+}
+
+std::string study_json(const Study& study) {
+  const nlohmann::ordered_json json{{"version", RINGCRAFT_VERSION},
+                                    {"study", study.name},
+                                    {"title", study.title},
+                                    {"said", study.said},
+                                    {"interrupted", study.interrupted},
+                                    {"rows", rows_json(study.table)}};
+  return json.dump(1) + "\n";
+}
+
+std::string study_text(const StudyTable& table) {
+  std::vector<std::size_t> width;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    std::size_t most = table.columns[i].size();
+    for (const auto& row : table.rows) most = std::max(most, cell_text(row[i]).size());
+    width.push_back(most);
+  }
+  std::string out;
+  const auto line = [&](const auto& text_of) {
+    for (std::size_t i = 0; i < width.size(); ++i) {
+      out += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", text_of(i), width[i]);
+    }
+    out += '\n';
+  };
+  line([&](std::size_t i) { return table.columns[i]; });
+  for (const auto& row : table.rows) line([&](std::size_t i) { return cell_text(row[i]); });
+  return out;
+}
+
+std::string study_html(const Study& study) {
+  std::string said;
+  for (const std::string& one : study.said) said += "<p>" + html_escaped(one) + "\n";
+  return fmt::format(
+      "<!doctype html><meta charset=\"utf-8\"><title>{0}</title>\n"
+      "<style>body{{font:14px system-ui;margin:2em;max-width:1200px}}"
+      "table{{border-collapse:collapse;margin:1em 0}}"
+      "td,th{{padding:.25em .7em;border-bottom:1px solid #ccc;text-align:right;"
+      "font-variant-numeric:tabular-nums}}"
+      "td:first-child,th:first-child{{text-align:left}}</style>\n<h1>{0}</h1>\n{1}{2}{3}",
+      html_escaped(study.title), said, study_svg(study), html_table(study.table));
+}
+
+Result<void> write_study(const std::filesystem::path& folder, const Study& study) {
+  const nlohmann::ordered_json timing{
+      {"version", RINGCRAFT_VERSION}, {"study", study.name}, {"rows", rows_json(study.timing)}};
+  const std::pair<const char*, std::string> files[] = {{"study.csv", study_csv(study.table)},
+                                                       {"study.json", study_json(study)},
+                                                       {"study.svg", study_svg(study)},
+                                                       {"study.html", study_html(study)},
+                                                       {"timing.json", timing.dump(1) + "\n"}};
+  for (const auto& [name, bytes] : files) {
+    if (auto written = write_file(folder / name, bytes); !written) return written;
+  }
+  return {};
+}
+
+Interval wilson(std::size_t wins, std::size_t of) {
+  if (of == 0) return {};
+  constexpr double kZ = 1.959964;  // of the normal distribution's 97.5 %
+  const auto n = static_cast<double>(of);
+  const double p = static_cast<double>(wins) / n;
+  const double spread = kZ * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
+  const double middle = p + kZ * kZ / (2 * n), whole = 1 + kZ * kZ / n;
+  return {std::max(0.0, (middle - spread) / whole), std::min(1.0, (middle + spread) / whole)};
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (values[high] - values[low]) * (at - static_cast<double>(low));
+}
+
+}  // namespace ringcraft
