@@ -29,6 +29,12 @@ if(RINGCRAFT_SANITIZE)
     -fno-sanitize-recover=undefined -Wno-maybe-uninitialized)
   target_link_options(ringcraft_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(RINGCRAFT_FUZZ)
+  # Warnings are GCC's business; clang is here for its fuzzer.
+  target_compile_options(ringcraft_flags INTERFACE -fsanitize=address,undefined,fuzzer-no-link
+    -fno-omit-frame-pointer -fno-sanitize-recover=undefined -Wno-error)
+  target_link_options(ringcraft_flags INTERFACE -fsanitize=address,undefined)
+endif()
 
 # What a layer links from outside, besides the layers below it.
 set(ringcraft_base_packages fmt::fmt spdlog::spdlog glm::glm nlohmann_json::nlohmann_json

@@ -17,7 +17,7 @@ build_packages=(
 node_packages=(nodejs npm ca-certificates)
 test_packages=(assimp-utils)
 browser_packages=(chromium)
-ci_packages=(clang-format clang-tidy shellcheck git)
+ci_packages=(clang clang-format clang-tidy libclang-rt-14-dev shellcheck git)
 
 say() { printf '%s\n' "$*" >&2; }
 
