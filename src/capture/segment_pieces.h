@@ -1,0 +1,25 @@
+#pragma once
+// Actions from what the finders measured: strikes and combinations, blocks, falls and get-ups, and
+// what lies between them (idle, guard, steps, turns, slips, ducks, sways, staggers).
+
+#include "capture/segment_measure.h"
+
+namespace ringcraft {
+
+struct Found {
+  const Measures& measures;
+  const Guard& guard;
+  const std::vector<Blow>& blows;  // in order of time
+  const std::vector<Descent>& descents;
+  const SegmentSettings& settings;
+};
+
+// The tick of [first, last] at which the body is nearest to its guard, rather near `wanted`.
+Tick nearest_to_guard(const Found& found, Tick first, Tick last, Tick wanted);
+
+std::vector<Segment> attack_segments(const Found& found);
+std::vector<Segment> block_segments(const Found& found);
+std::vector<Segment> fall_segments(const Found& found, std::vector<std::string>& notes);
+std::vector<Segment> quiet_segments(const Found& found);
+
+}  // namespace ringcraft
