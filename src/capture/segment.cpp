@@ -16,13 +16,13 @@ constexpr Tick kStillLying = 24;         // ticks of lying before a get-up that 
 constexpr Tick kRested = 12;             // ticks after landing that belong to the fall
 
 // Arms that swing while a leg kicks strike nobody; nor do those of a fighter who falls.
-std::vector<Blow> all_blows(const Measures& m, const std::vector<Descent>& falls,
-                            const SegmentSettings& settings) {
-  std::vector<Blow> blows = kicks(m, settings);
+std::vector<FoundBlow> all_blows(const Measures& m, const std::vector<Descent>& falls,
+                                 const SegmentSettings& settings) {
+  std::vector<FoundBlow> blows = kicks(m, settings);
   const std::size_t kick_count = blows.size();
-  for (Blow& blow : hand_blows(m, settings)) {
+  for (FoundBlow& blow : hand_blows(m, settings)) {
     const bool swings = std::any_of(
-        blows.begin(), blows.begin() + static_cast<long>(kick_count), [&](const Blow& kick) {
+        blows.begin(), blows.begin() + static_cast<long>(kick_count), [&](const FoundBlow& kick) {
           return blow.strike.at > kick.begin - kArmsBeforeKick && blow.strike.at < kick.end;
         });
     const bool falls_down = std::any_of(falls.begin(), falls.end(), [&](const Descent& d) {
@@ -31,8 +31,9 @@ std::vector<Blow> all_blows(const Measures& m, const std::vector<Descent>& falls
     });
     if (!swings && !falls_down) blows.push_back(std::move(blow));
   }
-  std::stable_sort(blows.begin(), blows.end(),
-                   [](const Blow& a, const Blow& b) { return a.strike.at < b.strike.at; });
+  std::stable_sort(blows.begin(), blows.end(), [](const FoundBlow& a, const FoundBlow& b) {
+    return a.strike.at < b.strike.at;
+  });
   return blows;
 }
 
@@ -54,16 +55,16 @@ std::string plain(const std::string& name) {
 }
 
 // "13_17_jab_left_2": the capture, what it is, which of them.
-void name_them(const std::string& capture, std::vector<Segment>& segments) {
+void name_them(const std::string& capture, std::vector<FoundAction>& segments) {
   std::map<std::string, int> count;
-  for (Segment& segment : segments) {
+  for (FoundAction& segment : segments) {
     const std::string what = segment.cut.name;
     segment.cut.name = fmt::format("{}_{}_{}", plain(capture), what, ++count[what]);
   }
 }
 
-Segment fall_of(const Found& found, const Descent& d) {
-  Segment fall;
+FoundAction fall_of(const Found& found, const Descent& d) {
+  FoundAction fall;
   fall.cut.kind = Kind::response;
   fall.cut.name = fmt::format("knockdown_{}", name_of(d.lying));
   fall.cut.begin = seconds(d.begin);
@@ -75,8 +76,8 @@ Segment fall_of(const Found& found, const Descent& d) {
   return fall;
 }
 
-Segment rise_of(const Descent& d) {
-  Segment rise;
+FoundAction rise_of(const Descent& d) {
+  FoundAction rise;
   // A body that changes how it lies on the way up gets up from how it lay first.
   Tick begin = d.rise;
   Lying from = d.rests;
@@ -98,8 +99,8 @@ Segment rise_of(const Descent& d) {
 
 }  // namespace
 
-std::vector<Segment> fall_segments(const Found& found, std::vector<std::string>& notes) {
-  std::vector<Segment> out;
+std::vector<FoundAction> fall_segments(const Found& found, std::vector<std::string>& notes) {
+  std::vector<FoundAction> out;
   for (const Descent& d : found.descents) {
     if (d.rolls) {
       notes.push_back(fmt::format("{:.2f}-{:.2f} s: rolls over its head, no fall ({})",
@@ -134,12 +135,13 @@ Segmentation segment(const Skeleton& skeleton, const Clip& capture, const std::s
   out.southpaw = guard.southpaw;
   out.notes.push_back(guard.evidence);
   const Found found{m, guard, out.blows, falls, settings};
-  for (std::vector<Segment>& part :
-       std::array<std::vector<Segment>, 4>{attack_segments(found), block_segments(found),
-                                           fall_segments(found, out.notes), quiet_segments(found)})
-    for (Segment& segment : part) out.segments.push_back(std::move(segment));
-  std::stable_sort(out.segments.begin(), out.segments.end(),
-                   [](const Segment& a, const Segment& b) { return a.cut.begin < b.cut.begin; });
+  for (std::vector<FoundAction>& part : std::array<std::vector<FoundAction>, 4>{
+           attack_segments(found), block_segments(found), fall_segments(found, out.notes),
+           quiet_segments(found)})
+    for (FoundAction& segment : part) out.segments.push_back(std::move(segment));
+  std::stable_sort(
+      out.segments.begin(), out.segments.end(),
+      [](const FoundAction& a, const FoundAction& b) { return a.cut.begin < b.cut.begin; });
   name_them(name, out.segments);
   return out;
 }

@@ -13,7 +13,7 @@
 namespace ringcraft {
 
 // One limb's blow as found: a strike, or a block that is made like one.
-struct Blow {
+struct FoundBlow {
   StrikeCut strike;     // limb, kind, zone, moment of its peak speed
   bool blocks = false;  // the forearm sweeps down across the body or up before the head
   bool spins = false;   // the body turns away and round on the way
@@ -25,17 +25,17 @@ struct Blow {
 
 // An action as found. `evidence` says what was measured, as in "right hand 7.9 m/s at 17.28 s,
 // extension 0.31 -> 0.96, path straight 0.97".
-struct Segment {
+struct FoundAction {
   ActionCut cut;
   std::string evidence;
 };
 
 struct Segmentation {
-  std::vector<Segment> segments;  // in order of their begins
-  std::vector<Blow> blows;        // in order of time, those in no segment included
-  double guard_at = 0;            // s: the moment nearest to this fighter's usual guard
-  float guard_yaw = 0;            // rad: pelvis yaw off the opponent in it
-  bool southpaw = false;          // stands right foot forward; the cuts are of the clip as given
+  std::vector<FoundAction> segments;  // in order of their begins
+  std::vector<FoundBlow> blows;       // in order of time, those in no segment included
+  double guard_at = 0;                // s: the moment nearest to this fighter's usual guard
+  float guard_yaw = 0;                // rad: pelvis yaw off the opponent in it
+  bool southpaw = false;  // stands right foot forward; the cuts are of the clip as given
   std::vector<std::string> notes;
 };
 

@@ -26,7 +26,7 @@ struct Span {
   Tick begin = 0, end = 0;
 };
 
-std::string name_of_strike(const Found& found, const Blow& blow) {
+std::string name_of_strike(const Found& found, const FoundBlow& blow) {
   const Joint joint = blow.strike.joint;
   const bool left = joint == Joint::left_hand || joint == Joint::left_foot;
   const bool lead = left != found.guard.southpaw;
@@ -42,15 +42,15 @@ std::string name_of_strike(const Found& found, const Blow& blow) {
   return fmt::format("{}_{}", what, side);
 }
 
-bool runs_on(const Blow& a, const Blow& b) {
+bool runs_on(const FoundBlow& a, const FoundBlow& b) {
   return b.begin - a.reach <= static_cast<double>(kTogether);
 }
 
 // Where blows first..last of the list can be cut out; the neighbours keep theirs to themselves.
 Span span_of(const Found& found, std::size_t first, std::size_t last) {
   const Measures& m = found.measures;
-  const Blow& head = found.blows[first];
-  const Blow& tail = found.blows[last];
+  const FoundBlow& head = found.blows[first];
+  const FoundBlow& tail = found.blows[last];
   const Tick leaves = std::min(ticks(head.begin), ticks(head.strike.at) - kInside);
   Tick earliest = leaves - kEarliest;
   if (first > 0) earliest = std::max(earliest, ticks(found.blows[first - 1].reach) + kAfterReach);
@@ -69,14 +69,14 @@ Span span_of(const Found& found, std::size_t first, std::size_t last) {
   return span;
 }
 
-Segment segment_of(const Found& found, std::size_t first, std::size_t last, Span span) {
-  Segment segment;
+FoundAction segment_of(const Found& found, std::size_t first, std::size_t last, Span span) {
+  FoundAction segment;
   ActionCut& cut = segment.cut;
   cut.kind = first == last ? Kind::attack : Kind::combination;
   cut.begin = seconds(span.begin);
   cut.end = seconds(span.end);
   for (std::size_t i = first; i <= last; ++i) {
-    const Blow& blow = found.blows[i];
+    const FoundBlow& blow = found.blows[i];
     cut.strikes.push_back(blow.strike);
     cut.name += (i == first ? "" : "_") + name_of_strike(found, blow);
     segment.evidence += (i == first ? "" : "; then ") + blow.evidence;
@@ -95,7 +95,7 @@ bool cuttable(const Found& found, std::size_t first, std::size_t last, Span span
 // Strikes chain_first..chain_last follow each other: whole, in pairs and one by one, where the body
 // comes near enough to its guard between them.
 void add_chain(const Found& found, std::size_t chain_first, std::size_t chain_last,
-               std::vector<Segment>& out) {
+               std::vector<FoundAction>& out) {
   for (std::size_t first = chain_first; first <= chain_last; ++first) {
     for (std::size_t last = first; last <= chain_last; ++last) {
       const std::size_t count = last - first + 1;
@@ -129,9 +129,9 @@ Tick nearest_to_guard(const Found& found, Tick first, Tick last, Tick wanted) {
   return best;
 }
 
-std::vector<Segment> attack_segments(const Found& found) {
-  std::vector<Segment> out;
-  const std::vector<Blow>& blows = found.blows;
+std::vector<FoundAction> attack_segments(const Found& found) {
+  std::vector<FoundAction> out;
+  const std::vector<FoundBlow>& blows = found.blows;
   for (std::size_t i = 0; i < blows.size();) {
     if (blows[i].blocks) {
       ++i;
@@ -147,13 +147,13 @@ std::vector<Segment> attack_segments(const Found& found) {
   return out;
 }
 
-std::vector<Segment> block_segments(const Found& found) {
-  std::vector<Segment> out;
+std::vector<FoundAction> block_segments(const Found& found) {
+  std::vector<FoundAction> out;
   for (std::size_t i = 0; i < found.blows.size(); ++i) {
-    const Blow& blow = found.blows[i];
+    const FoundBlow& blow = found.blows[i];
     if (!blow.blocks) continue;
     const Span span = span_of(found, i, i);
-    Segment segment;
+    FoundAction segment;
     const bool left = blow.strike.joint == Joint::left_hand;
     segment.cut.kind = Kind::defense;
     segment.cut.name =

@@ -112,14 +112,14 @@ bool same_motion(const Clip& a, const Clip& b) {
 }
 
 void note_blows(const std::string& file, const Segmentation& found, Collection& out) {
-  for (const Blow& blow : found.blows) {
+  for (const FoundBlow& blow : found.blows) {
     const std::string_view kind = blow.blocks ? "block" : name_of(blow.strike.kind);
     out.note(fmt::format("{}: found {}{} {} at {:.2f} s: {}", file, blow.spins ? "spinning " : "",
                          kind, vrm_name(blow.strike.joint), blow.strike.at, blow.evidence));
   }
 }
 
-void cut_segment(const Clip& clip, const CaptureTracks& tracks, const Segment& segment,
+void cut_segment(const Clip& clip, const CaptureTracks& tracks, const FoundAction& segment,
                  const std::string& file, const std::string& source, Collection& out) {
   auto action = cut_action(out.skeleton, clip, tracks, segment.cut, file, "");
   if (!action) {
@@ -163,7 +163,7 @@ void add_clip(const fs::path& path, const std::string& clip_name, Collection& ou
     found = segment(out.skeleton, *clip, name);
   }
   const CaptureTracks tracks = tracks_of(*clip, found.guard_at, found.guard_yaw);
-  for (const Segment& segment : found.segments)
+  for (const FoundAction& segment : found.segments)
     cut_segment(*clip, tracks, segment, file, source, out);
 }
 

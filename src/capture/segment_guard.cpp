@@ -37,13 +37,13 @@ std::size_t at(Tick tick) {
   return static_cast<std::size_t>(tick);
 }
 
-std::vector<bool> quiet_ticks(const Measures& m, const std::vector<Blow>& blows,
+std::vector<bool> quiet_ticks(const Measures& m, const std::vector<FoundBlow>& blows,
                               const std::vector<Descent>& falls) {
   std::vector<bool> quiet(m.world.size(), true);
   const auto busy = [&](Tick first, Tick last) {
     for (Tick t = m.clamped(first); t <= m.clamped(last); ++t) quiet[at(t)] = false;
   };
-  for (const Blow& blow : blows)
+  for (const FoundBlow& blow : blows)
     busy(ticks(blow.begin) - kAsideOfBlows, ticks(blow.end) + kAsideOfBlows);
   for (const Descent& d : falls) busy(d.begin, d.up < 0 ? m.last : d.up);
   for (Tick t = 0; t <= m.last; ++t) {
@@ -124,10 +124,10 @@ float middle_angle(std::vector<float> angles) {
 
 // Pelvis yaw off the opponent in guard: the way the straights and straight kicks go, each seen from
 // the guard the body would stand in as it begins. Without any, the way the fighter looks.
-float yaw_off_opponent(const Measures& m, const Guard& guard, const std::vector<Blow>& blows,
+float yaw_off_opponent(const Measures& m, const Guard& guard, const std::vector<FoundBlow>& blows,
                        const std::vector<Tick>& among) {
   std::vector<float> offs;
-  for (const Blow& blow : blows) {
+  for (const FoundBlow& blow : blows) {
     const bool straight = blow.strike.kind == StrikeKind::straight ||
                           blow.strike.kind == StrikeKind::front_kick ||
                           blow.strike.kind == StrikeKind::side_kick;
@@ -163,7 +163,7 @@ void find_stance(const Measures& m, const std::vector<Tick>& among, Guard& guard
 }  // namespace
 
 Guard guard_of(const Skeleton& skeleton, const Clip& capture, const Measures& m,
-               const std::vector<Blow>& blows, const std::vector<Descent>& falls) {
+               const std::vector<FoundBlow>& blows, const std::vector<Descent>& falls) {
   const std::vector<bool> quiet = quiet_ticks(m, blows, falls);
   std::vector<Tick> up, any, all;
   for (Tick t = 0; t <= m.last; ++t) {

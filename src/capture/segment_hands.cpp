@@ -18,6 +18,7 @@ namespace {
 constexpr Tick kPeakAround = 10;      // ticks: two peaks of one hand lie farther apart
 constexpr Tick kWayOut = 48;          // ticks before the peak in which the way out begins
 constexpr Tick kToReach = 22;         // ticks after it within which the arm is at full reach
+constexpr Tick kPastReach = 5;        // ticks after the reach in which the arm still opens
 constexpr Tick kOpensFrom = 36;       // ticks before the peak in which the arm is most bent
 constexpr Tick kSpeedOver = 4;        // ticks to both sides over which the way at the peak is taken
 constexpr float kBegins = 0.25f;      // share of the peak speed at which a hand leaves
@@ -73,7 +74,8 @@ Stroke stroke_of(const Measures& m, Side side, Tick peak) {
   for (Tick t = m.clamped(peak - kOpensFrom); t <= peak; ++t)
     s.least = std::min(s.least, hand.extension[at(t)]);
   for (Tick t = peak; t <= m.clamped(peak + kToReach); ++t) {
-    s.most = std::max(s.most, hand.extension[at(t)]);
+    // What opens on the way back, as a runner's arm does, is no way out.
+    if (t <= s.reach + kPastReach) s.most = std::max(s.most, hand.extension[at(t)]);
     s.highest = std::max(s.highest, m.at(wrist_of(side), t).y);
   }
   s.turned = std::abs(m.gaze[at(s.reach)] - m.gaze[at(s.start)]);
@@ -98,6 +100,7 @@ bool sweeps_out(const Measures& m, const Stroke& s, const SegmentSettings& set) 
 
 bool rises(const Measures& m, const Stroke& s, const SegmentSettings& set) {
   return s.speed >= set.block_speed && s.way.y >= set.rises && s.most >= set.bent_least &&
+         s.most <= set.bent_most &&
          s.highest > m.at(arm(s.side).root, m.clamped(s.peak + kPeakAround)).y &&
          s.highest >= kChin * m.height;
 }
@@ -136,8 +139,9 @@ Tick end_of(const Measures& m, const Stroke& s) {
   return t;
 }
 
-Blow blow_of(const Measures& m, const Stroke& s, StrikeKind kind, bool blocks, const char* what) {
-  Blow blow;
+FoundBlow blow_of(const Measures& m, const Stroke& s, StrikeKind kind, bool blocks,
+                  const char* what) {
+  FoundBlow blow;
   blow.blocks = blocks;
   blow.strike.kind = kind;
   blow.strike.joint = wrist_of(s.side);
@@ -156,7 +160,8 @@ Blow blow_of(const Measures& m, const Stroke& s, StrikeKind kind, bool blocks, c
   return blow;
 }
 
-std::optional<Blow> classified(const Measures& m, const Stroke& s, const SegmentSettings& set) {
+std::optional<FoundBlow> classified(const Measures& m, const Stroke& s,
+                                    const SegmentSettings& set) {
   if (!able_to_strike(m, s, set)) return std::nullopt;
   if (sweeps_out(m, s, set))
     return blow_of(m, s, StrikeKind::hook, true, "sweeps out from across the body");
@@ -191,8 +196,8 @@ void keep_faster_of_one_stroke(const Measures& m, Side side, std::vector<Stroke>
 
 }  // namespace
 
-std::vector<Blow> hand_blows(const Measures& measures, const SegmentSettings& settings) {
-  std::vector<Blow> blows;
+std::vector<FoundBlow> hand_blows(const Measures& measures, const SegmentSettings& settings) {
+  std::vector<FoundBlow> blows;
   const float least =
       std::min({settings.straight_speed, settings.bent_speed, settings.block_speed});
   for (const Side side : kSides) {
@@ -204,8 +209,9 @@ std::vector<Blow> hand_blows(const Measures& measures, const SegmentSettings& se
     keep_faster_of_one_stroke(measures, side, strokes);
     for (const Stroke& stroke : strokes) blows.push_back(*classified(measures, stroke, settings));
   }
-  std::stable_sort(blows.begin(), blows.end(),
-                   [](const Blow& a, const Blow& b) { return a.strike.at < b.strike.at; });
+  std::stable_sort(blows.begin(), blows.end(), [](const FoundBlow& a, const FoundBlow& b) {
+    return a.strike.at < b.strike.at;
+  });
   return blows;
 }
 

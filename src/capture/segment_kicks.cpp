@@ -98,8 +98,8 @@ Tick down_from(const Measures& m, const Swing& s, int step) {
   return t;
 }
 
-Blow blow_of(const Measures& m, const Swing& s, const SegmentSettings& set) {
-  Blow blow;
+FoundBlow blow_of(const Measures& m, const Swing& s, const SegmentSettings& set) {
+  FoundBlow blow;
   blow.spins = s.spin >= set.spin_turn;
   StrikeKind kind = StrikeKind::front_kick;
   if (blow.spins || s.turn >= set.round_turn)
@@ -127,22 +127,23 @@ Blow blow_of(const Measures& m, const Swing& s, const SegmentSettings& set) {
 
 }  // namespace
 
-std::vector<Blow> kicks(const Measures& measures, const SegmentSettings& settings) {
-  std::vector<Blow> blows;
+std::vector<FoundBlow> kicks(const Measures& measures, const SegmentSettings& settings) {
+  std::vector<FoundBlow> blows;
   for (const Side side : kSides) {
     for (const Tick peak :
          peaks_of(measures.foot[index(side)].speed, settings.kick_speed, kPeakAround)) {
       const Swing swing = swing_of(measures, side, peak);
       if (!is_kick(measures, swing, settings)) continue;
-      Blow blow = blow_of(measures, swing, settings);
+      FoundBlow blow = blow_of(measures, swing, settings);
       // The way back of a kick is no second one.
       const bool again = !blows.empty() && blows.back().strike.joint == blow.strike.joint &&
                          blow.strike.at < blows.back().end;
       if (!again) blows.push_back(std::move(blow));
     }
   }
-  std::stable_sort(blows.begin(), blows.end(),
-                   [](const Blow& a, const Blow& b) { return a.strike.at < b.strike.at; });
+  std::stable_sort(blows.begin(), blows.end(), [](const FoundBlow& a, const FoundBlow& b) {
+    return a.strike.at < b.strike.at;
+  });
   return blows;
 }
 

@@ -87,8 +87,8 @@ inline const char* word(Side side) {
 std::vector<Tick> peaks_of(const std::vector<float>& values, float least, Tick around);
 
 // Blows of hands and feet in order of time, none of which overlap on one limb.
-std::vector<Blow> hand_blows(const Measures& measures, const SegmentSettings& settings);
-std::vector<Blow> kicks(const Measures& measures, const SegmentSettings& settings);
+std::vector<FoundBlow> hand_blows(const Measures& measures, const SegmentSettings& settings);
+std::vector<FoundBlow> kicks(const Measures& measures, const SegmentSettings& settings);
 
 // When the body goes down and comes up again.
 struct Descent {
@@ -118,6 +118,6 @@ struct Guard {
   std::string evidence;
 };
 Guard guard_of(const Skeleton& skeleton, const Clip& capture, const Measures& measures,
-               const std::vector<Blow>& blows, const std::vector<Descent>& descents);
+               const std::vector<FoundBlow>& blows, const std::vector<Descent>& descents);
 
 }  // namespace ringcraft

@@ -9,7 +9,7 @@ namespace ringcraft {
 struct Found {
   const Measures& measures;
   const Guard& guard;
-  const std::vector<Blow>& blows;  // in order of time
+  const std::vector<FoundBlow>& blows;  // in order of time
   const std::vector<Descent>& descents;
   const SegmentSettings& settings;
 };
@@ -17,9 +17,9 @@ struct Found {
 // The tick of [first, last] at which the body is nearest to its guard, rather near `wanted`.
 Tick nearest_to_guard(const Found& found, Tick first, Tick last, Tick wanted);
 
-std::vector<Segment> attack_segments(const Found& found);
-std::vector<Segment> block_segments(const Found& found);
-std::vector<Segment> fall_segments(const Found& found, std::vector<std::string>& notes);
-std::vector<Segment> quiet_segments(const Found& found);
+std::vector<FoundAction> attack_segments(const Found& found);
+std::vector<FoundAction> block_segments(const Found& found);
+std::vector<FoundAction> fall_segments(const Found& found, std::vector<std::string>& notes);
+std::vector<FoundAction> quiet_segments(const Found& found);
 
 }  // namespace ringcraft

@@ -44,7 +44,7 @@ std::vector<bool> free_ticks(const Found& found) {
   const auto take = [&](Tick first, Tick last) {
     for (Tick t = m.clamped(first); t <= m.clamped(last); ++t) free[at(t)] = false;
   };
-  for (const Blow& blow : found.blows)
+  for (const FoundBlow& blow : found.blows)
     take(ticks(blow.begin) - kAside, ticks(blow.end) + kAside / 2);
   for (const Descent& d : found.descents) take(d.begin - kAside, d.up < 0 ? m.last : d.up);
   return free;
@@ -90,7 +90,7 @@ Piece piece_of(const Found& found, const std::vector<Vec3>& ground, Tick begin, 
   return p;
 }
 
-void defend(const Piece& p, DefenseKind kind, Segment& segment) {
+void defend(const Piece& p, DefenseKind kind, FoundAction& segment) {
   segment.cut.kind = Kind::defense;
   const Tick quarter = (p.end - p.begin) / 5;
   segment.cut.defense = Defense{kind, p.begin + quarter, p.end - quarter};
@@ -102,8 +102,8 @@ const char* direction_of(Vec3 way) {
 }
 
 // Name, kind and defense by what the piece does most.
-Segment labelled(const Found& found, const Piece& p) {
-  Segment s;
+FoundAction labelled(const Found& found, const Piece& p) {
+  FoundAction s;
   s.cut.begin = seconds(p.begin);
   s.cut.end = seconds(p.end);
   s.cut.kind = Kind::transition;
@@ -141,19 +141,19 @@ Segment labelled(const Found& found, const Piece& p) {
 }
 
 struct Candidate {
-  Segment segment;
+  FoundAction segment;
   float distance = 0;  // m: the farther of its ends from the guard
 };
 
 // Of each name the few that begin and end nearest to the guard.
-std::vector<Segment> nearest_of_each(std::vector<Candidate> candidates) {
+std::vector<FoundAction> nearest_of_each(std::vector<Candidate> candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) {
                      if (a.segment.cut.name != b.segment.cut.name)
                        return a.segment.cut.name < b.segment.cut.name;
                      return a.distance < b.distance;
                    });
-  std::vector<Segment> out;
+  std::vector<FoundAction> out;
   std::string name;
   std::size_t same = 0;
   for (Candidate& candidate : candidates) {
@@ -166,7 +166,7 @@ std::vector<Segment> nearest_of_each(std::vector<Candidate> candidates) {
 
 }  // namespace
 
-std::vector<Segment> quiet_segments(const Found& found) {
+std::vector<FoundAction> quiet_segments(const Found& found) {
   const Measures& m = found.measures;
   const std::vector<bool> free = free_ticks(found);
   std::vector<Vec3> ground;

@@ -67,12 +67,12 @@ const std::vector<Seen> kRule135_06 = {{'L', 5.37},  {'R', 6.66},  {'R', 10.45},
                                        {'R', 14.56}, {'L', 17.73}, {'R', 21.71}};
 const std::vector<Seen> kRuleBoxing = {{'R', 11.87}};
 
-bool same(const Blow& blow, const Seen& seen) {
+bool same(const FoundBlow& blow, const Seen& seen) {
   const bool left = blow.strike.joint == Joint::left_hand;
   return left == (seen.side == 'L') && std::abs(blow.strike.at - seen.at) <= 0.1;
 }
 
-bool same_kind(const Blow& blow, Seen::Kind kind) {
+bool same_kind(const FoundBlow& blow, Seen::Kind kind) {
   if (kind == block || blow.blocks) return (kind == block) == blow.blocks;
   if (kind == straight) return blow.strike.kind == StrikeKind::straight;
   if (kind == uppercut) return blow.strike.kind == StrikeKind::uppercut;
@@ -83,17 +83,17 @@ struct Score {
   double precision = 0, recall = 0, kind = 0;
 };
 
-Score score_of(const std::vector<Blow>& blows, const std::vector<Seen>& eye,
+Score score_of(const std::vector<FoundBlow>& blows, const std::vector<Seen>& eye,
                const std::vector<Seen>& rule) {
   int found = 0, kinds = 0, right = 0;
   for (const Seen& seen : eye)
-    for (const Blow& blow : blows)
+    for (const FoundBlow& blow : blows)
       if (same(blow, seen)) {
         ++found;
         kinds += same_kind(blow, seen.kind) ? 1 : 0;
         break;
       }
-  for (const Blow& blow : blows) {
+  for (const FoundBlow& blow : blows) {
     const auto fits = [&](const Seen& seen) { return same(blow, seen); };
     right +=
         std::any_of(eye.begin(), eye.end(), fits) || std::any_of(rule.begin(), rule.end(), fits)
@@ -109,7 +109,7 @@ void expect_found(const char* file, const std::vector<Seen>& eye, const std::vec
   const Segmentation result = segmented(file);
   const Score score = score_of(result.blows, eye, rule);
   std::string list;
-  for (const Blow& blow : result.blows) list += blow.evidence + "\n";
+  for (const FoundBlow& blow : result.blows) list += blow.evidence + "\n";
   EXPECT_GE(score.precision, 0.9) << file << "\n" << list;
   EXPECT_GE(score.recall, 0.9) << file << "\n" << list;
   EXPECT_GE(score.kind, 0.8) << file << "\n" << list;
@@ -167,7 +167,7 @@ TEST(Segmentation, WalksRunsJumpsRollsAndHandshakesHoldNoStrike) {
         "hdm05/bd_lieDownFloor_001_120.amc", "hdm05/bk_lieDownFloor_005_120.amc",
         "hdm05/bd_sneak2StepsLStart_001_120.amc"}) {
     const Segmentation result = segmented(file);
-    for (const Blow& blow : result.blows) ADD_FAILURE() << file << ": " << blow.evidence;
+    for (const FoundBlow& blow : result.blows) ADD_FAILURE() << file << ": " << blow.evidence;
   }
 }
 
@@ -175,7 +175,7 @@ TEST(Segmentation, FindsTheKnockdownAndTheGetUp) {
   SKIP_WITHOUT_CAPTURES();
   const Segmentation result = segmented("debian/Boxing_Toes.bvh");
   int falls = 0, rises = 0;
-  for (const Segment& segment : result.segments) {
+  for (const FoundAction& segment : result.segments) {
     const ActionCut& cut = segment.cut;
     if (cut.ends_lying != Lying::none) {
       ++falls;
