@@ -65,6 +65,9 @@ struct Action {
   std::optional<Response> response;
   Lying starts_lying = Lying::none;  // get-ups
   Lying ends_lying = Lying::none;    // knockdowns
+  // Made by the builder from a way through the motion graph: leads from one action to another and
+  // is never chosen for itself.
+  bool connects = false;
   std::string source;                // the capture or sheet, with the seconds cut from it
 
   Tick length() const { return clip.length(); }

@@ -38,6 +38,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
       hasher.add(action.response->zone.value_or(TargetZone::head));
     }
     hasher.add(action.starts_lying).add(action.ends_lying);
+    if (action.connects) hasher.add(action.connects);
     add(hasher, action.clip);
   }
   return hasher.digest();
@@ -58,8 +59,24 @@ MotionLibrary::MotionLibrary(std::string name, std::vector<Action> actions,
     }
   }
   machine_ = StateMachine(skeleton_, actions_, settings);
+  sort_actions();
+}
+
+MotionLibrary::MotionLibrary(LibraryParts parts)
+    : name_(std::move(parts.name)),
+      skeleton_(canonical_skeleton()),
+      actions_(std::move(parts.actions)),
+      machine_(std::move(parts.machine)),
+      graph_(std::move(parts.graph)),
+      dropped_(std::move(parts.dropped)),
+      notes_(std::move(parts.notes)) {
+  sort_actions();
+}
+
+void MotionLibrary::sort_actions() {
   for (std::size_t i = 0; i < actions_.size(); ++i) {
     const Kind kind = actions_[i].kind;
+    if (actions_[i].connects) continue;
     (kind == Kind::response ? responses_
      : kind == Kind::get_up ? get_ups_
                             : launchable_)
@@ -76,8 +93,9 @@ ActionId MotionLibrary::find(std::string_view name) const {
 }
 
 std::size_t MotionLibrary::count(Kind kind) const {
-  return static_cast<std::size_t>(std::count_if(
-      actions_.begin(), actions_.end(), [&](const Action& action) { return action.kind == kind; }));
+  return static_cast<std::size_t>(
+      std::count_if(actions_.begin(), actions_.end(),
+                    [&](const Action& action) { return action.kind == kind && !action.connects; }));
 }
 
 }  // namespace ringcraft

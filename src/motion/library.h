@@ -4,15 +4,27 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_graph.h"
 #include "motion/state_machine.h"
 
 namespace ringcraft {
+
+// What a library is made of, once it is built.
+struct LibraryParts {
+  std::string name;
+  std::vector<Action> actions;  // all of them connected
+  StateMachine machine;
+  MotionGraph graph;
+  std::vector<std::string> dropped, notes;
+};
 
 class MotionLibrary {
  public:
   // Drops what is not strongly connected; `dropped()` says what and why.
   MotionLibrary(std::string name, std::vector<Action> actions,
                 const StateMachineSettings& settings = {});
+  // As it was built before: nothing is looked for and nothing dropped.
+  explicit MotionLibrary(LibraryParts parts);
 
   const std::string& name() const { return name_; }
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight
@@ -20,9 +32,13 @@ class MotionLibrary {
   const Action& action(ActionId id) const { return actions_[id.at()]; }
   ActionId find(std::string_view name) const;  // invalid when there is none
   const StateMachine& machine() const { return machine_; }
+  const MotionGraph& graph() const { return graph_; }  // empty where none was built
   const std::vector<std::string>& dropped() const { return dropped_; }
+  // What the builder has to say about where actions come from.
+  const std::vector<std::string>& notes() const { return notes_; }
 
-  // Actions a fighter may choose: attacks, combinations, defenses, transitions, idles.
+  // Actions a fighter may choose: attacks, combinations, defenses, transitions, idles. Not those
+  // that only connect.
   const std::vector<ActionId>& launchable() const { return launchable_; }
   const std::vector<ActionId>& responses() const { return responses_; }
   const std::vector<ActionId>& get_ups() const { return get_ups_; }
@@ -30,11 +46,14 @@ class MotionLibrary {
   std::uint64_t hash() const { return hash_; }
 
  private:
+  void sort_actions();
+
   std::string name_;
   Skeleton skeleton_;
   std::vector<Action> actions_;
   StateMachine machine_;
-  std::vector<std::string> dropped_;
+  MotionGraph graph_;
+  std::vector<std::string> dropped_, notes_;
   std::vector<ActionId> launchable_, responses_, get_ups_;
   std::uint64_t hash_ = 0;
 };

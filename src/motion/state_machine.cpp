@@ -12,93 +12,11 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kLookAheadSeconds =
-    0.1f;  // the window: where the joints are and where they will be
-
-struct CloudPoint {
-  Vec3 position{};
-  float weight = 1;
-};
-using Cloud = std::vector<CloudPoint>;
-
-float weight_of(Joint joint) {
-  switch (joint) {
-    case Joint::left_foot:
-    case Joint::right_foot:
-    case Joint::left_toes:
-    case Joint::right_toes:
-      return 3.0f;
-    case Joint::hips:
-      return 2.0f;
-    default:
-      return 1.0f;
-  }
-}
-
-// Joints at `tick` and, by their velocity over four ticks, kLookAheadSeconds later, seen from
-// `origin`.
-Cloud cloud_at(const Skeleton& skeleton, const Clip& clip, Tick tick, const Placement& origin) {
-  constexpr Tick kSpan = 4;
-  const Tick early =
-      std::clamp<Tick>(tick - kSpan / 2, 0, std::max<Tick>(0, clip.length() - kSpan));
-  const Tick late = std::min<Tick>(early + kSpan, clip.length());
-  const WorldPose now = world_pose(skeleton, clip.at(tick));
-  const WorldPose before = world_pose(skeleton, clip.at(early));
-  const WorldPose after = world_pose(skeleton, clip.at(late));
-  const float per_look =
-      kLookAheadSeconds / (static_cast<float>(std::max<Tick>(1, late - early)) * kTickSeconds);
-  const Placement back = inverse(origin);
-  Cloud cloud;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const float weight = weight_of(joint_at(i));
-    const Vec3 ahead = (after.position[i] - before.position[i]) * per_look;
-    cloud.push_back({back * now.position[i], weight});
-    cloud.push_back({back * (now.position[i] + ahead), weight * 0.5f});
-  }
-  return cloud;
-}
-
-// Kovar, Gleicher, Pighin 2002, equations 2 to 4: the floor placement that takes `second` onto
-// `first`.
-Alignment align_clouds(const Cloud& first, const Cloud& second) {
-  double weights = 0, x1 = 0, z1 = 0, x2 = 0, z2 = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const double w = first[i].weight;
-    weights += w;
-    x1 += w * first[i].position.x;
-    z1 += w * first[i].position.z;
-    x2 += w * second[i].position.x;
-    z2 += w * second[i].position.z;
-  }
-  x1 /= weights, z1 /= weights, x2 /= weights, z2 /= weights;
-  double sine = 0, cosine = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const double w = first[i].weight;
-    const double ax = first[i].position.x - x1, az = first[i].position.z - z1;
-    const double bx = second[i].position.x - x2, bz = second[i].position.z - z2;
-    sine += w * (ax * bz - az * bx);
-    cosine += w * (ax * bx + az * bz);
-  }
-  Alignment result;
-  result.placement.yaw = static_cast<float>(std::atan2(sine, cosine));
-  const Vec3 turned =
-      yaw_rotation(result.placement.yaw) * Vec3(static_cast<float>(x2), 0, static_cast<float>(z2));
-  result.placement.x = static_cast<float>(x1) - turned.x;
-  result.placement.z = static_cast<float>(z1) - turned.z;
-  double squares = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    squares +=
-        first[i].weight * glm::distance2(first[i].position, result.placement * second[i].position);
-  }
-  result.distance = static_cast<float>(std::sqrt(squares / weights));
-  return result;
-}
-
 Cloud start_cloud(const Skeleton& skeleton, const Clip& clip) {
-  return cloud_at(skeleton, clip, 0, clip.root_at(0));
+  return cloud_at(skeleton, clip, 0);
 }
 Cloud end_cloud(const Skeleton& skeleton, const Clip& clip) {
-  return cloud_at(skeleton, clip, clip.length(), clip.root_at(clip.length()));
+  return cloud_at(skeleton, clip, clip.length());
 }
 
 bool launchable(const Action& action) {
@@ -126,7 +44,7 @@ Edges find_edges(const Skeleton& skeleton, const std::vector<Action>& actions,
   Edges edges(actions.size());
   for (std::size_t i = 0; i < actions.size(); ++i) {
     for (std::size_t j = 0; j < actions.size(); ++j) {
-      const Alignment alignment = align_clouds(ends[i], starts[j]);
+      const Alignment alignment = align(ends[i], starts[j]);
       if (edge_allowed(actions[i], actions[j], alignment.distance, settings)) {
         edges[i].push_back({ActionId(j), alignment});
       }
@@ -252,18 +170,15 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
 }  // namespace
 
 Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& second) {
-  return align_clouds(end_cloud(skeleton, first), start_cloud(skeleton, second));
+  return align(end_cloud(skeleton, first), start_cloud(skeleton, second));
 }
 
 Alignment aligned(const Skeleton& skeleton, const Pose& world, const Clip& clip) {
   const WorldPose from = world_pose(skeleton, world);
   const WorldPose to = world_pose(skeleton, scaled(clip.at(0), skeleton.height / kCanonicalHeight));
-  Cloud first, second;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    first.push_back({from.position[i], 1});
-    second.push_back({to.position[i], 1});
-  }
-  return align_clouds(first, second);
+  std::array<float, kJointCount> weights{};
+  weights.fill(1);
+  return align(from.position, to.position, weights);
 }
 
 StateMachine::StateMachine(const Skeleton& skeleton, const std::vector<Action>& actions,

@@ -10,13 +10,9 @@
 #include <vector>
 
 #include "motion/action.h"
+#include "motion/point_cloud.h"
 
 namespace ringcraft {
-
-struct Alignment {
-  Placement placement;  // the second action's start relative to the first one's end placement
-  float distance = 0;   // root mean square of the aligned joint distances, m
-};
 
 // Best floor-plane alignment of the start of `second` to the end of `first`; feet weigh most.
 Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& second);
@@ -45,6 +41,10 @@ class StateMachine {
   StateMachine() = default;
   StateMachine(const Skeleton& skeleton, const std::vector<Action>& actions,
                const StateMachineSettings& settings);
+  // As found before: one list of edges and one of paths (to every action) for each action.
+  StateMachine(std::vector<std::vector<Edge>> edges,
+               std::vector<std::vector<std::optional<Path>>> paths)
+      : edges_(std::move(edges)), paths_(std::move(paths)) {}
 
   // Edges out of the end of `from`, nearest first. Responses and falls are entered by physics only
   // and never stand as a target here.
