@@ -15,28 +15,6 @@ constexpr Tick kLongestRise = 480;       // ticks of a get-up
 constexpr Tick kStillLying = 24;         // ticks of lying before a get-up that begins in it
 constexpr Tick kRested = 12;             // ticks after landing that belong to the fall
 
-// Arms that swing while a leg kicks strike nobody; nor do those of a fighter who falls.
-std::vector<FoundBlow> all_blows(const Measures& m, const std::vector<Descent>& falls,
-                                 const SegmentSettings& settings) {
-  std::vector<FoundBlow> blows = kicks(m, settings);
-  const std::size_t kick_count = blows.size();
-  for (FoundBlow& blow : hand_blows(m, settings)) {
-    const bool swings = std::any_of(
-        blows.begin(), blows.begin() + static_cast<long>(kick_count), [&](const FoundBlow& kick) {
-          return blow.strike.at > kick.begin - kArmsBeforeKick && blow.strike.at < kick.end;
-        });
-    const bool falls_down = std::any_of(falls.begin(), falls.end(), [&](const Descent& d) {
-      const Tick peak = ticks(blow.strike.at);
-      return peak >= d.begin && (d.up < 0 || peak <= d.up);
-    });
-    if (!swings && !falls_down) blows.push_back(std::move(blow));
-  }
-  std::stable_sort(blows.begin(), blows.end(), [](const FoundBlow& a, const FoundBlow& b) {
-    return a.strike.at < b.strike.at;
-  });
-  return blows;
-}
-
 // Lower case letters, digits and underscores.
 std::string plain(const std::string& name) {
   std::string out;
@@ -98,6 +76,27 @@ FoundAction rise_of(const Descent& d) {
 }
 
 }  // namespace
+
+std::vector<FoundBlow> all_blows(const Measures& m, const std::vector<Descent>& falls,
+                                 const SegmentSettings& settings) {
+  std::vector<FoundBlow> blows = kicks(m, settings);
+  const std::size_t kick_count = blows.size();
+  for (FoundBlow& blow : hand_blows(m, settings)) {
+    const bool swings = std::any_of(
+        blows.begin(), blows.begin() + static_cast<long>(kick_count), [&](const FoundBlow& kick) {
+          return blow.strike.at > kick.begin - kArmsBeforeKick && blow.strike.at < kick.end;
+        });
+    const bool falls_down = std::any_of(falls.begin(), falls.end(), [&](const Descent& d) {
+      const Tick peak = ticks(blow.strike.at);
+      return peak >= d.begin && (d.up < 0 || peak <= d.up);
+    });
+    if (!swings && !falls_down) blows.push_back(std::move(blow));
+  }
+  std::stable_sort(blows.begin(), blows.end(), [](const FoundBlow& a, const FoundBlow& b) {
+    return a.strike.at < b.strike.at;
+  });
+  return blows;
+}
 
 std::vector<FoundAction> fall_segments(const Found& found, std::vector<std::string>& notes) {
   std::vector<FoundAction> out;

@@ -15,24 +15,24 @@ struct SegmentSettings {
   // Hands.
   float straight_speed = 2.0f;   // peak speed of the wrist relative to the hips
   float arm_opens = 0.20f;       // growth of shoulder-wrist over arm length
-  float arm_opens_late = 0.10f;  // the part of it after the peak speed
-  float arm_open = 0.74f;        // at full reach
+  float arm_opens_late = 0.07f;  // the part of it after the peak speed
+  float arm_open = 0.70f;        // at full reach
   float goes_ahead = 0.15f;      // share of the peak velocity along the gaze
   float bent_speed = 4.05f;      // the same as straight_speed, for hooks and uppercuts
   float bent_ahead = 0.20f;      // as goes_ahead
   float bent_least = 0.50f;      // extension a bent-arm blow has at least
-  float bent_most = 0.90f;       // and at most
+  float bent_most = 0.95f;       // and at most
   float bent_gain = 0.08f;       // H the fist gains along the gaze
-  float gaze_turn = 0.80f;       // rad the gaze may turn in a bent-arm blow
-  float block_speed = 3.9f;      // for blocks
+  float gaze_turn = 0.90f;       // rad the gaze may turn in a bent-arm blow
+  float block_speed = 3.5f;      // for blocks
   float across = 0.04f;          // H: how far past the midline a sweeping block begins
-  float rises = 0.86f;           // share of the peak velocity upward in a rising block
+  float rises = 0.87f;           // share of the peak velocity upward in a rising block
   // Kicks.
   float kick_speed = 3.4f;    // peak speed of the ankle relative to the hips
   float leg_folds = 0.70f;    // hip-ankle over leg length, in the chamber
   float leg_opens = 0.25f;    // growth from there
   float kick_height = 0.20f;  // H: the ankle at full reach
-  float kick_ahead = 0.18f;   // H: the ankle past the hips along the gaze at full reach
+  float kick_ahead = 0.15f;   // H: the ankle past the hips along the gaze at full reach
   float round_turn = 1.25f;   // rad the hips turn in 0.6 s in a roundhouse
   float spin_turn = 4.2f;     // rad the hips turn in 1.3 s in a spin
   // The body.
@@ -103,6 +103,11 @@ struct Descent {
   std::string evidence_down, evidence_up;
 };
 std::vector<Descent> descents(const Measures& measures);
+
+// Hands and feet together. Arms that swing while a leg kicks strike nobody; nor do those of a
+// fighter who falls.
+std::vector<FoundBlow> all_blows(const Measures& measures, const std::vector<Descent>& falls,
+                                 const SegmentSettings& settings);
 
 // How the fighter stands when he does nothing: the moment nearest to the medians of the joints over
 // all moments at which he stands quietly with his hands up (with his hands anywhere, where he never

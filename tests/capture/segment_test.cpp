@@ -3,107 +3,24 @@
 
 #include "capture/segment.h"
 
-#include <cmath>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/file.h"
-#include "capture/mocap.h"
-#include "capture/profile.h"
-#include "capture/read_capture.h"
+#include "capture/segment_truth.h"
 #include "capture/sheet.h"
 
 namespace ringcraft {
 namespace {
 
-using testing::mocap_folder;
-
-Clip canonical_of(const std::filesystem::path& path) {
-  auto raw = read_capture(path);
-  EXPECT_TRUE(raw) << path;
-  replace_junk_first_frame(*raw);
-  const auto profiles = read_profiles(assets_folder() / "profiles");
-  return *retarget(*raw, *best_profile(*profiles, *raw), canonical_skeleton());
-}
+using namespace testing;
 
 Segmentation segmented(const char* file) {
   const std::filesystem::path path = mocap_folder() / file;
-  return segment(canonical_skeleton(), canonical_of(path), path.stem().string());
+  return segment(canonical_skeleton(), canonical_clip_of(path), path.stem().string());
 }
 
 #define SKIP_WITHOUT_CAPTURES() \
   if (!std::filesystem::exists(mocap_folder())) GTEST_SKIP() << "skipped: no captures"
-
-struct Seen {
-  char side;  // L or R
-  double at;  // s
-  enum class Kind : std::uint8_t { straight, bent, uppercut, block, any } kind = Kind::any;
-};
-using enum Seen::Kind;
-
-// By eye: calibration.md section 0.
-const std::vector<Seen> kEye13_17 = {
-    {'L', 2.98, straight},  {'L', 10.02, straight}, {'L', 17.08, straight}, {'L', 21.58, straight},
-    {'L', 28.81, straight}, {'L', 32.62, straight}, {'L', 36.98, straight}, {'R', 1.90, straight},
-    {'R', 3.16, straight},  {'R', 5.08, straight},  {'R', 8.82, straight},  {'R', 10.22, straight},
-    {'R', 14.49, straight}, {'R', 17.27, straight}, {'R', 21.75, straight}, {'R', 27.96, straight},
-    {'R', 28.97, straight}, {'R', 37.17, straight}, {'R', 18.44, bent},     {'R', 19.94, bent},
-    {'R', 20.65, bent},     {'R', 29.57, bent},     {'R', 32.83, bent},     {'R', 38.66, bent},
-    {'L', 18.27, bent},     {'L', 20.38, bent},     {'L', 29.31, bent},     {'L', 38.44, bent},
-    {'R', 10.92, uppercut}};
-const std::vector<Seen> kEyeBoxing = {
-    {'R', 3.40, straight}, {'R', 5.08, straight},  {'R', 5.40, straight},  {'R', 6.43, straight},
-    {'R', 9.87, straight}, {'R', 12.41, straight}, {'R', 14.11, straight}, {'R', 8.94, straight},
-    {'L', 5.72, straight}, {'L', 9.19, straight},  {'R', 7.29, bent}};
-const std::vector<Seen> kEye135_06 = {
-    {'R', 2.67, straight},  {'L', 5.47, straight},  {'R', 13.12, straight}, {'L', 14.92, straight},
-    {'R', 17.02, straight}, {'L', 17.67, straight}, {'R', 18.18, straight}, {'L', 2.41, block},
-    {'R', 4.38, block},     {'L', 7.09, block},     {'L', 12.72, block},    {'L', 16.56, block},
-    {'L', 10.42, block},    {'R', 10.94, block}};
-// By rule (README.md): right too, where found.
-const std::vector<Seen> kRule13_17 = {{'R', 10.52}, {'L', 38.52}};
-const std::vector<Seen> kRule135_06 = {{'L', 5.37},  {'R', 6.66},  {'R', 10.45},
-                                       {'R', 14.56}, {'L', 17.73}, {'R', 21.71}};
-const std::vector<Seen> kRuleBoxing = {{'R', 11.87}};
-
-bool same(const FoundBlow& blow, const Seen& seen) {
-  const bool left = blow.strike.joint == Joint::left_hand;
-  return left == (seen.side == 'L') && std::abs(blow.strike.at - seen.at) <= 0.1;
-}
-
-bool same_kind(const FoundBlow& blow, Seen::Kind kind) {
-  if (kind == block || blow.blocks) return (kind == block) == blow.blocks;
-  if (kind == straight) return blow.strike.kind == StrikeKind::straight;
-  if (kind == uppercut) return blow.strike.kind == StrikeKind::uppercut;
-  return blow.strike.kind == StrikeKind::hook || blow.strike.kind == StrikeKind::uppercut;
-}
-
-struct Score {
-  double precision = 0, recall = 0, kind = 0;
-};
-
-Score score_of(const std::vector<FoundBlow>& blows, const std::vector<Seen>& eye,
-               const std::vector<Seen>& rule) {
-  int found = 0, kinds = 0, right = 0;
-  for (const Seen& seen : eye)
-    for (const FoundBlow& blow : blows)
-      if (same(blow, seen)) {
-        ++found;
-        kinds += same_kind(blow, seen.kind) ? 1 : 0;
-        break;
-      }
-  for (const FoundBlow& blow : blows) {
-    const auto fits = [&](const Seen& seen) { return same(blow, seen); };
-    right +=
-        std::any_of(eye.begin(), eye.end(), fits) || std::any_of(rule.begin(), rule.end(), fits)
-            ? 1
-            : 0;
-  }
-  return {static_cast<double>(right) / static_cast<double>(blows.size()),
-          static_cast<double>(found) / static_cast<double>(eye.size()),
-          static_cast<double>(kinds) / std::max(1, found)};
-}
 
 void expect_found(const char* file, const std::vector<Seen>& eye, const std::vector<Seen>& rule) {
   const Segmentation result = segmented(file);
@@ -132,23 +49,7 @@ TEST(Segmentation, FindsStraightsAndBlocksOfAKata) {
 
 TEST(Segmentation, FindsEveryKickWithItsSideAndKind) {
   SKIP_WITHOUT_CAPTURES();
-  struct Kick {
-    const char* file;
-    Joint foot;
-    StrikeKind kind;
-    bool spins;
-  };
-  const std::vector<Kick> all = {
-      {"hdm05/bd_kickLFront1Reps_001_120.amc", Joint::left_foot, StrikeKind::front_kick, false},
-      {"hdm05/bd_kickLFront1Reps_002_120.amc", Joint::left_foot, StrikeKind::front_kick, false},
-      {"hdm05/bd_kickLFront1Reps_003_120.amc", Joint::left_foot, StrikeKind::front_kick, false},
-      {"hdm05/bk_kickLFront1Reps_007_120.amc", Joint::left_foot, StrikeKind::side_kick, false},
-      {"hdm05/bk_kickLFront1Reps_008_120.amc", Joint::left_foot, StrikeKind::side_kick, false},
-      {"hdm05/bk_kickLFront1Reps_009_120.amc", Joint::left_foot, StrikeKind::front_kick, false},
-      {"deepmimic/kick.bvh", Joint::right_foot, StrikeKind::roundhouse, false},
-      {"deepmimic/spinkick.bvh", Joint::right_foot, StrikeKind::roundhouse, true},
-      {"mass/mass_kick.bvh", Joint::right_foot, StrikeKind::roundhouse, false}};
-  for (const Kick& kick : all) {
+  for (const KickTake& kick : kKicks) {
     const Segmentation result = segmented(kick.file);
     ASSERT_EQ(result.blows.size(), 1u) << kick.file;
     EXPECT_EQ(result.blows[0].strike.joint, kick.foot) << kick.file;
@@ -159,13 +60,7 @@ TEST(Segmentation, FindsEveryKickWithItsSideAndKind) {
 
 TEST(Segmentation, WalksRunsJumpsRollsAndHandshakesHoldNoStrike) {
   SKIP_WITHOUT_CAPTURES();
-  for (const char* file :
-       {"cmu/02_01.bvh", "cmu/16_15.bvh", "cmu/07_05.amc", "cmu/09_06.amc", "cmu/49_02.bvh",
-        "cmu/18_01.bvh", "cmu/19_01.bvh", "deepmimic/walk.bvh", "deepmimic/run.bvh",
-        "deepmimic/jump.bvh", "deepmimic/roll.bvh", "deepmimic/spin.bvh",
-        "deepmimic/stealthy_walk.bvh", "deepmimic/getup_facedown.bvh", "deepmimic/getup_faceup.bvh",
-        "hdm05/bd_lieDownFloor_001_120.amc", "hdm05/bk_lieDownFloor_005_120.amc",
-        "hdm05/bd_sneak2StepsLStart_001_120.amc"}) {
+  for (const char* file : kPeaceful) {
     const Segmentation result = segmented(file);
     for (const FoundBlow& blow : result.blows) ADD_FAILURE() << file << ": " << blow.evidence;
   }
@@ -207,7 +102,7 @@ TEST(Segmentation, KnowsWhichFootIsAheadAndWhereTheOpponentStands) {
 TEST(Segmentation, TheMirroredCaptureGivesTheMirroredBlows) {
   SKIP_WITHOUT_CAPTURES();
   const Skeleton skeleton = canonical_skeleton();
-  const Clip clip = canonical_of(mocap_folder() / "debian/Boxing_Toes.bvh");
+  const Clip clip = canonical_clip_of(mocap_folder() / "debian/Boxing_Toes.bvh");
   const Segmentation a = segment(skeleton, clip, "take");
   const Segmentation b = segment(skeleton, mirrored(clip), "take");
   ASSERT_EQ(a.blows.size(), b.blows.size());
