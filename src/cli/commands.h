@@ -49,6 +49,7 @@ struct TreeOptions {
 struct SparringOptions {
   std::string library = "kickboxing";
   std::string attacker = "middleweight", defender = "middleweight";
+  std::vector<std::string> captures = {};  // two files of one capture space
 };
 
 // Set by SIGINT and SIGTERM.

@@ -109,6 +109,11 @@ int run(int argc, char** argv) {
                        "Manifest, folder, or the name of one in assets");
   sparring->add_option("--attacker", sparring_options.attacker, "Body of the attacker");
   sparring->add_option("--defender", sparring_options.defender, "Body of the defender");
+  sparring
+      ->add_option("--captures", sparring_options.captures,
+                   "Two people of one capture space, instead of a library")
+      ->type_name("A B")
+      ->expected(2);
   add_common(*sparring, options);
   sparring->callback([&] { code = run_sparring(sparring_options, options); });
 

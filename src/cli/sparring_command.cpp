@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 
+#include <spdlog/spdlog.h>
+
 #include "base/file.h"
 #include "capture/library_file.h"
+#include "capture/person.h"
 #include "cli/commands.h"
+#include "scene/pair_sparring.h"
 #include "scene/scene_file.h"
+#include "scene/sparring.h"
 #include "scene/sparring_files.h"
 
 namespace ringcraft {
@@ -19,17 +24,66 @@ Result<BodyModel> body_named(const std::string& name) {
   return make_body(*spec);
 }
 
+// Records, table and page of one source of records.
+int write_sparring(const std::string& name, std::span<const Action> actions,
+                   std::span<const SparringRecord> records, const CommonOptions& options) {
+  const std::filesystem::path folder = options.out.empty() ? "out/sparring" : options.out;
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const OffenseDefenseTable table(records);
+  const std::string json = table_json(name, actions, table);
+  const std::pair<const char*, std::string> files[] = {
+      {"records.csv", records_csv(actions, records)},
+      {"table.json", json},
+      {"table.html", table_page(name, actions, table)}};
+  for (const auto& [file, bytes] : files)
+    if (const auto written = write_file(folder / file, bytes); !written)
+      return fail(written.error());
+  if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{} records\n{}open {}\n", records.size(), table_text(actions, table),
+               (folder / "table.html").string());
+  }
+  return 0;
+}
+
+int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
+                     const CommonOptions& options) {
+  std::vector<CapturedPerson> people;
+  std::vector<Action> actions;
+  for (const std::string& file : sparring.captures) {
+    auto person = read_person(file);
+    if (!person) return fail(person.error());
+    for (const std::string& note : person->notes) spdlog::info("{}: {}", file, note);
+    for (const CapturedAction& captured : person->actions) actions.push_back(captured.action);
+    people.push_back(std::move(*person));
+  }
+  std::size_t id = 0;
+  std::vector<PairTake> takes;
+  for (const CapturedPerson& person : people) {
+    PairTake take;
+    take.clip = &person.clip;
+    for (const CapturedAction& captured : person.actions)
+      take.moves.push_back({ActionId(id++), &captured.action, captured.begin, captured.root});
+    takes.push_back(std::move(take));
+  }
+  std::vector<SparringRecord> records = pair_records(body, takes[0], takes[1]);
+  const std::vector<SparringRecord> back = pair_records(body, takes[1], takes[0]);
+  records.insert(records.end(), back.begin(), back.end());
+  return write_sparring(sparring.captures[0] + " and " + sparring.captures[1], actions, records,
+                        options);
+}
+
 }  // namespace
 
 int run_sparring(const SparringOptions& sparring, const CommonOptions& options) {
   const auto attacker = body_named(sparring.attacker);
   if (!attacker) return fail(attacker.error());
+  if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, options);
   const auto defender = body_named(sparring.defender);
   if (!defender) return fail(defender.error());
   const auto library = load_library(sparring.library);
   if (!library) return fail(library.error());
-  const std::filesystem::path folder = options.out.empty() ? "out/sparring" : options.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
 
   SparringSettings settings;
   settings.threads = options.threads;
@@ -37,21 +91,9 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   const MotionTables attacks(*library, *attacker), defenses(*library, *defender);
   const Sparring found = spar(attacks, defenses, settings);
   if (interrupted) return 130;
-  const OffenseDefenseTable table(found.records);
-  const std::string json = table_json(*library, table);
-  const std::pair<const char*, std::string> files[] = {
-      {"records.csv", records_csv(*library, found.records)},
-      {"table.json", json},
-      {"table.html", table_page(*library, table)}};
-  for (const auto& [name, bytes] : files)
-    if (const auto written = write_file(folder / name, bytes); !written)
-      return fail(written.error());
-  if (options.json) {
-    fmt::print("{}", json);
-  } else {
-    fmt::print("{}open {}\n", table_text(*library, found, table), (folder / "table.html").string());
-  }
-  return 0;
+  for (const ActionId attack : found.unlanded)
+    spdlog::warn("{} lands on no standing guard", library->action(attack).name);
+  return write_sparring(library->name(), library->actions(), found.records, options);
 }
 
 }  // namespace ringcraft

@@ -22,17 +22,22 @@ constexpr const char* kPage =
     "launch offset; below it that offset in ms after the attack's launch.</p>\n"
     "<table><thead><tr><th>attack{1}</tr></thead><tbody>\n{2}</tbody></table>\n";
 
-std::vector<ActionId> attacks_of(const MotionLibrary& library, const OffenseDefenseTable& table) {
+std::vector<ActionId> attacks_of(std::span<const Action> actions,
+                                 const OffenseDefenseTable& table) {
   std::vector<ActionId> attacks;
-  for (const ActionId id : library.launchable())
-    if (!table.against(id).empty()) attacks.push_back(id);
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    if (!table.against(ActionId(i)).empty()) attacks.push_back(ActionId(i));
   return attacks;
 }
 
-std::vector<ActionId> defenses_of(const MotionLibrary& library) {
+// Those that stand in the table, by id.
+std::vector<ActionId> defenses_of(std::span<const Action> actions,
+                                  const OffenseDefenseTable& table) {
   std::vector<ActionId> defenses;
-  for (const ActionId id : library.launchable())
-    if (library.action(id).defense) defenses.push_back(id);
+  for (const ActionId attack : attacks_of(actions, table))
+    for (const DefenseEntry& entry : table.against(attack)) defenses.push_back(entry.defense);
+  std::sort(defenses.begin(), defenses.end());
+  defenses.erase(std::unique(defenses.begin(), defenses.end()), defenses.end());
   return defenses;
 }
 
@@ -49,21 +54,22 @@ std::string blow_of(const Action& action) {
 
 }  // namespace
 
-std::string records_csv(const MotionLibrary& library, const std::vector<SparringRecord>& records) {
+std::string records_csv(std::span<const Action> actions, std::span<const SparringRecord> records) {
   std::string csv = "attack,defense,offset_s,distance_m,bearing_deg,facing_deg,end\n";
   for (const SparringRecord& record : records) {
     const Placement& at = record.relative;
     fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{:.2f},{:.1f},{:.1f},{}\n",
-                   library.action(record.attack).name, library.action(record.defense).name,
+                   actions[record.attack.at()].name, actions[record.defense.at()].name,
                    seconds(record.offset), std::hypot(at.x, at.z), degrees(yaw_of(at.position())),
                    degrees(wrapped_angle(at.yaw)), name_of(record.end));
   }
   return csv;
 }
 
-std::string table_json(const MotionLibrary& library, const OffenseDefenseTable& table) {
+std::string table_json(const std::string& name, std::span<const Action> actions,
+                       const OffenseDefenseTable& table) {
   nlohmann::json attacks = nlohmann::json::array();
-  for (const ActionId attack : attacks_of(library, table)) {
+  for (const ActionId attack : attacks_of(actions, table)) {
     nlohmann::json defenses = nlohmann::json::array();
     for (const DefenseEntry& entry : table.against(attack)) {
       nlohmann::json offsets = nlohmann::json::array();
@@ -71,25 +77,25 @@ std::string table_json(const MotionLibrary& library, const OffenseDefenseTable& 
         offsets.push_back({{"offset_ms", milliseconds(timing.offset)},
                            {"launched", timing.launched},
                            {"worked", timing.worked}});
-      defenses.push_back({{"defense", library.action(entry.defense).name},
+      defenses.push_back({{"defense", actions[entry.defense.at()].name},
                           {"launched", entry.launched},
                           {"worked", entry.worked},
                           {"best_offset_ms", milliseconds(best_timing(entry).offset)},
                           {"lift", std::round(1000 * table.lift(attack, entry.defense)) / 1000},
                           {"offsets", std::move(offsets)}});
     }
-    attacks.push_back({{"attack", library.action(attack).name}, {"defenses", std::move(defenses)}});
+    attacks.push_back({{"attack", actions[attack.at()].name}, {"defenses", std::move(defenses)}});
   }
-  return nlohmann::json{{"library", library.name()}, {"attacks", std::move(attacks)}}.dump(1) +
-         "\n";
+  return nlohmann::json{{"library", name}, {"attacks", std::move(attacks)}}.dump(1) + "\n";
 }
 
-std::string table_page(const MotionLibrary& library, const OffenseDefenseTable& table) {
-  const std::vector<ActionId> defenses = defenses_of(library);
+std::string table_page(const std::string& name, std::span<const Action> actions,
+                       const OffenseDefenseTable& table) {
+  const std::vector<ActionId> defenses = defenses_of(actions, table);
   std::string head, rows;
-  for (const ActionId id : defenses) head += "<th>" + library.action(id).name;
-  for (const ActionId attack : attacks_of(library, table)) {
-    rows += "<tr><th>" + library.action(attack).name;
+  for (const ActionId id : defenses) head += "<th>" + actions[id.at()].name;
+  for (const ActionId attack : attacks_of(actions, table)) {
+    rows += "<tr><th>" + actions[attack.at()].name;
     for (const ActionId defense : defenses) {
       const DefenseEntry* entry = table.entry(attack, defense);
       if (entry == nullptr) {
@@ -103,11 +109,10 @@ std::string table_page(const MotionLibrary& library, const OffenseDefenseTable& 
     }
     rows += "</tr>\n";
   }
-  return fmt::format(kPage, library.name(), head, rows);
+  return fmt::format(kPage, name, head, rows);
 }
 
-std::string table_text(const MotionLibrary& library, const Sparring& sparring,
-                       const OffenseDefenseTable& table) {
+std::string table_text(std::span<const Action> actions, const OffenseDefenseTable& table) {
   // Per kind of blow the mean over its attacks of each defense's share at its best timing.
   struct Mean {
     double sum = 0;
@@ -115,16 +120,14 @@ std::string table_text(const MotionLibrary& library, const Sparring& sparring,
     double value() const { return sum / count; }
   };
   std::map<std::string, std::map<ActionId, Mean>> blows;
-  for (const ActionId attack : attacks_of(library, table)) {
+  for (const ActionId attack : attacks_of(actions, table)) {
     for (const DefenseEntry& entry : table.against(attack)) {
-      Mean& mean = blows[blow_of(library.action(attack))][entry.defense];
+      Mean& mean = blows[blow_of(actions[attack.at()])][entry.defense];
       mean.sum += static_cast<double>(best_timing(entry).share());
       ++mean.count;
     }
   }
-  std::string text = fmt::format("{} records\n", sparring.records.size());
-  for (const ActionId attack : sparring.unlanded)
-    text += fmt::format("{} lands on no standing guard\n", library.action(attack).name);
+  std::string text;
   for (const auto& [blow, means] : blows) {
     std::vector<std::pair<ActionId, double>> sorted;
     sorted.reserve(means.size());
@@ -133,9 +136,9 @@ std::string table_text(const MotionLibrary& library, const Sparring& sparring,
                      [](const auto& a, const auto& b) { return a.second > b.second; });
     text += fmt::format("{}:", blow);
     for (std::size_t i = 0; i < std::min<std::size_t>(5, sorted.size()); ++i)
-      text += fmt::format(" {} {:.0f} %{}", library.action(sorted[i].first).name,
-                          100 * sorted[i].second,
-                          i + 1 < std::min<std::size_t>(5, sorted.size()) ? "," : "");
+      text +=
+          fmt::format(" {} {:.0f} %{}", actions[sorted[i].first.at()].name, 100 * sorted[i].second,
+                      i + 1 < std::min<std::size_t>(5, sorted.size()) ? "," : "");
     text += "\n";
   }
   return text;
