@@ -47,7 +47,7 @@ Result<CapturedPerson> read_person(const std::filesystem::path& capture) {
   person.clip = *clip;
   if (const auto kept = keep_distances(*raw, *profile, person.clip); !kept)
     return tl::unexpected(kept.error());
-  for (const Segment& segment : found.segments) {
+  for (const auto& segment : found.segments) {
     auto action = cut_action(skeleton, *clip, tracks, segment.cut, capture.string(), "");
     if (!action) {
       person.notes.push_back("passed over: " + to_string(action.error()));

@@ -35,7 +35,7 @@ std::vector<ActionId> defenses_of(std::span<const Action> actions,
                                   const OffenseDefenseTable& table) {
   std::vector<ActionId> defenses;
   for (const ActionId attack : attacks_of(actions, table))
-    for (const DefenseEntry& entry : table.against(attack)) defenses.push_back(entry.defense);
+    for (const DefenseEntry& entry : table.against(attack)) defenses.emplace_back(entry.defense);
   std::sort(defenses.begin(), defenses.end());
   defenses.erase(std::unique(defenses.begin(), defenses.end()), defenses.end());
   return defenses;
