@@ -121,8 +121,11 @@ bool has_straight(const ActionCut& cut) {
 std::vector<Placement> root_track(const Skeleton& skeleton, const Clip& capture,
                                   const CaptureTracks& tracks, const ActionCut& cut, Tick first,
                                   Tick last) {
-  float start = facing_at(skeleton, capture, tracks, first);
-  float end = start + wrapped_angle(facing_at(skeleton, capture, tracks, last) - start);
+  const auto facing = [&](std::optional<float> known, Tick tick) {
+    return known ? *known : facing_at(skeleton, capture, tracks, tick);
+  };
+  float start = facing(cut.facing_begin, first);
+  float end = start + wrapped_angle(facing(cut.facing_end, last) - start);
   if (cut.starts_lying != Lying::none) start = end;
   if (cut.ends_lying != Lying::none || has_straight(cut)) end = start;
   std::vector<Placement> root;
@@ -153,14 +156,16 @@ float turn_at(const std::vector<Knot>& knots, Tick tick) {
 
 // Turns the clip about the body's axis so that every straight goes along +Z at its full reach and
 // the body comes back to its guard; feet that stand at the start stay where they are, turning on
-// their balls. What the end still faces past +Z goes into the root track.
+// their balls. What the end still faces past +Z goes into the root track. `faces`: where the end
+// faces in the clip's space, found on the guard without it.
 void turn_to_opponent(const Skeleton& skeleton, const CaptureTracks& tracks,
-                      const std::vector<Aim>& aims, Clip& clip) {
+                      const std::vector<Aim>& aims, std::optional<float> faces, Clip& clip) {
   const Tick last = clip.length();
   std::vector<Knot> knots = {{0, 0.0f}};
   for (const Aim& aim : aims) knots.push_back({aim.tick, -aim.yaw});
-  const float end = wrapped_angle(facing_at(skeleton, clip, tracks, last));
-  knots.push_back({last, std::clamp(-end, -kLargestReturn, kLargestReturn)});
+  const float end = wrapped_angle(faces ? *faces : facing_at(skeleton, clip, tracks, last));
+  const float back = std::clamp(-end, -kLargestReturn, kLargestReturn);
+  knots.push_back({last, back});
   for (Tick t = 0; t <= last; ++t) {
     Quat& hips = clip.frames[static_cast<std::size_t>(t)].rotation[0];
     hips = glm::normalize(yaw_rotation(turn_at(knots, t)) * hips);
@@ -168,7 +173,8 @@ void turn_to_opponent(const Skeleton& skeleton, const CaptureTracks& tracks,
   RetargetSettings settings;
   settings.keep_first_plants = true;
   plant_feet(skeleton, clip, settings);
-  const float left_over = wrapped_angle(facing_at(skeleton, clip, tracks, last));
+  const float left_over =
+      wrapped_angle(faces ? end + back : facing_at(skeleton, clip, tracks, last));
   const Tick from = aims.back().tick;
   for (Tick t = from; t <= last; ++t)
     clip.root[static_cast<std::size_t>(t)].yaw +=
@@ -242,7 +248,9 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
   }
   action.clip.root.front() = {};
   const std::vector<Aim> aims = aims_of(skeleton, action.clip, cut, first);
-  if (!aims.empty()) turn_to_opponent(skeleton, tracks, aims, action.clip);
+  std::optional<float> faces;
+  if (cut.facing_end) faces = *cut.facing_end - root.front().yaw;
+  if (!aims.empty()) turn_to_opponent(skeleton, tracks, aims, faces, action.clip);
   unroll_rotations(action.clip);
 
   for (const StrikeCut& wanted : cut.strikes) {
@@ -261,6 +269,7 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
       straight_window(skeleton, action.clip, peak, strike);
     else
       arc_window(skeleton, action.clip, peak, strike);
+    strike.active_end = std::min(strike.active_end, action.length() + 1);
     action.strikes.push_back(strike);
   }
   if (cut.defense) {

@@ -33,6 +33,9 @@ struct ActionCut {
   Kind kind = Kind::idle;
   double begin = 0, end = 0;
   float turn = 0;  // rad, added to the facing that is found
+  // rad: where the fighter faces at begin and end, for poses that are far from any guard; found on
+  // the guard without them.
+  std::optional<float> facing_begin, facing_end;
   std::vector<StrikeCut> strikes;
   std::optional<Defense> defense;  // ticks from the capture's first frame
   std::optional<Response> response;

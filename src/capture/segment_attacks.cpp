@@ -19,6 +19,7 @@ constexpr Tick kInside = 8;     // ticks a strike's peak lies inside its action 
 constexpr Tick kAfterReach = 10;     // ticks after full reach before which nothing ends
 constexpr float kTogether = 0.45f;   // s from one full reach to the next hand's leaving
 constexpr float kParted = 0.17f;     // m rms from the guard at which a combination can be parted
+constexpr float kStrange = 0.25f;    // m rms from the guard at which a pose says nothing of facing
 constexpr float kHaste = 0.06f;      // m rms that a second away from the wanted moment costs
 constexpr std::size_t kLongest = 6;  // strikes of a combination
 
@@ -69,6 +70,22 @@ Span span_of(const Found& found, std::size_t first, std::size_t last) {
   return span;
 }
 
+// Where the body faces at the ends of a cut that do not look like its guard: at the beginning the
+// way the first strike goes (blocks: the way the fighter looks), from there as the gaze turns.
+void face_opponent(const Found& found, const FoundBlow& first, Span span, ActionCut& cut) {
+  const Measures& m = found.measures;
+  const std::vector<float>& distance = found.guard.distance;
+  const auto tick = [](Tick t) { return static_cast<std::size_t>(t); };
+  const bool strange = distance[tick(span.begin)] > kStrange || distance[tick(span.end)] > kStrange;
+  if (found.guard.fights && !strange) return;
+  const Tick reach = ticks(first.reach);
+  const Vec3 way = m.at(first.strike.joint, reach) - m.at(Joint::hips, reach);
+  cut.facing_begin = first.blocks ? m.gaze[tick(reach)] : yaw_of(way);
+  cut.facing_end = *cut.facing_begin;
+  if (first.strike.kind == StrikeKind::roundhouse)
+    *cut.facing_end += m.gaze[tick(span.end)] - m.gaze[tick(span.begin)];
+}
+
 FoundAction segment_of(const Found& found, std::size_t first, std::size_t last, Span span) {
   FoundAction segment;
   ActionCut& cut = segment.cut;
@@ -81,6 +98,7 @@ FoundAction segment_of(const Found& found, std::size_t first, std::size_t last, 
     cut.name += (i == first ? "" : "_") + name_of_strike(found, blow);
     segment.evidence += (i == first ? "" : "; then ") + blow.evidence;
   }
+  face_opponent(found, found.blows[first], span, cut);
   segment.evidence += fmt::format("; begins {:.2f} m and ends {:.2f} m from the guard",
                                   found.guard.distance[static_cast<std::size_t>(span.begin)],
                                   found.guard.distance[static_cast<std::size_t>(span.end)]);
@@ -163,6 +181,7 @@ std::vector<FoundAction> block_segments(const Found& found) {
     segment.cut.end = seconds(span.end);
     segment.cut.defense = Defense{DefenseKind::parry, ticks(blow.strike.at) - kInside,
                                   ticks(blow.reach) + kAfterReach};
+    face_opponent(found, blow, span, segment.cut);
     segment.evidence = blow.evidence;
     out.push_back(std::move(segment));
   }
