@@ -38,18 +38,6 @@ struct Piece {
   float hands = 0;                 // H: mean distance of the farther wrist to the head
 };
 
-std::vector<bool> free_ticks(const Found& found) {
-  const Measures& m = found.measures;
-  std::vector<bool> free(m.world.size(), true);
-  const auto take = [&](Tick first, Tick last) {
-    for (Tick t = m.clamped(first); t <= m.clamped(last); ++t) free[at(t)] = false;
-  };
-  for (const FoundBlow& blow : found.blows)
-    take(ticks(blow.begin) - kAside, ticks(blow.end) + kAside / 2);
-  for (const Descent& d : found.descents) take(d.begin - kAside, d.up < 0 ? m.last : d.up);
-  return free;
-}
-
 // Moments of a free stretch at which the body is nearest to its guard.
 std::vector<Tick> rests_in(const Found& found, Tick first, Tick last) {
   const std::vector<float>& distance = found.guard.distance;
@@ -166,9 +154,23 @@ std::vector<FoundAction> nearest_of_each(std::vector<Candidate> candidates) {
 
 }  // namespace
 
+std::vector<bool> free_ticks(const Measures& m, const std::vector<FoundBlow>& blows,
+                             const std::vector<Descent>& falls) {
+  std::vector<bool> free(m.world.size(), true);
+  const auto take = [&](Tick first, Tick last) {
+    for (Tick t = m.clamped(first); t <= m.clamped(last); ++t) free[at(t)] = false;
+  };
+  for (const FoundBlow& blow : blows)
+    take(ticks(blow.begin) - kAside, ticks(blow.end) + kAside / 2);
+  for (const Descent& d : falls) take(d.begin - kAside, d.up < 0 ? m.last : d.up);
+  return free;
+}
+
 std::vector<FoundAction> quiet_segments(const Found& found) {
   const Measures& m = found.measures;
-  const std::vector<bool> free = free_ticks(found);
+  std::vector<bool> free = free_ticks(m, found.blows, found.descents);
+  for (const Stretch& s : found.staggers)
+    std::fill(free.begin() + s.first, free.begin() + s.last + 1, false);
   std::vector<Vec3> ground;
   ground.reserve(m.world.size());
   for (Tick t = 0; t <= m.last; ++t) {
