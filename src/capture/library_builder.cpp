@@ -8,9 +8,12 @@
 #include "base/document.h"
 #include "base/file.h"
 #include "capture/cut.h"
+#include "capture/library_file.h"
+#include "capture/library_responses.h"
 #include "capture/profile.h"
 #include "capture/read_capture.h"
 #include "capture/retarget.h"
+#include "capture/segment.h"
 #include "capture/sheet.h"
 
 namespace ringcraft {
@@ -196,6 +199,34 @@ Result<void> collect(const Document& manifest, Collector& out) {
   return {};
 }
 
+Result<MotionLibrary> checked(const std::filesystem::path& source, MotionLibrary library) {
+  if (library.launchable().empty())
+    return input_error(source.string(), "", "no action can follow another",
+                       "let actions start and end near one guard");
+  return library;
+}
+
+Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
+                                   const LibraryBuildSettings& settings) {
+  std::vector<std::string> notes;
+  FolderSettings of_folder;
+  of_folder.mirrored = settings.mirrored;
+  auto actions = collect_folder_actions(folder, &notes, of_folder);
+  if (!actions) return tl::unexpected(actions.error());
+  if (actions->empty())
+    return input_error(folder.string(), "", "no action was found in its captures",
+                       notes.empty() ? "name a folder that holds captures" : notes.front());
+  if (!settings.responses_from.empty()) {
+    const std::filesystem::path manifest =
+        library_source(std::filesystem::path(settings.responses_from));
+    auto others = collect_actions(manifest);
+    if (!others) return tl::unexpected(others.error());
+    add_missing_responses(*actions, std::move(*others), settings.responses_from, notes);
+  }
+  std::string name = std::filesystem::weakly_canonical(folder).filename().string();
+  return checked(folder, connected_library(name, std::move(*actions), std::move(notes), settings));
+}
+
 }  // namespace
 
 Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifest,
@@ -208,16 +239,18 @@ Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifes
   return std::move(out.actions);
 }
 
-Result<MotionLibrary> build_library(const std::filesystem::path& manifest) {
-  auto document = read_document(manifest, "manifest");
+Result<MotionLibrary> build_library(const std::filesystem::path& source,
+                                    const LibraryBuildSettings& settings) {
+  std::vector<std::string> notes;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(source, ignored)) return build_folder(source, settings);
+  auto document = read_document(source, "manifest");
   if (!document) return tl::unexpected(document.error());
   Collector out;
+  out.notes = &notes;
   if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
-  MotionLibrary library(document->value["name"].get<std::string>(), std::move(out.actions));
-  if (library.launchable().empty())
-    return input_error(manifest.string(), "", "no action can follow another",
-                       "let actions start and end near one guard");
-  return library;
+  return checked(source, connected_library(document->value["name"].get<std::string>(),
+                                           std::move(out.actions), std::move(notes), settings));
 }
 
 }  // namespace ringcraft

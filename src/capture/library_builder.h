@@ -11,14 +11,31 @@
 
 namespace ringcraft {
 
-// Reads the manifest (assets/schemas/manifest.schema.json), the captures and sheets it names, and
-// builds the library. Paths in a manifest are relative to the manifest. A capture that is marked
-// optional and is not there is passed over.
-Result<MotionLibrary> build_library(const std::filesystem::path& manifest);
+struct LibraryBuildSettings {
+  // The library whose responses, get-ups and idles stand in for what a folder of captures lacks
+  // (nobody is struck in most of them); empty: nothing stands in. A manifest names its own.
+  std::string responses_from = "kickboxing";
+  bool mirrored = true;  // a folder's actions also as the other side would do them
+  bool connect = true;   // with a motion graph, and ways through it where they are shorter
+  int threads = 1;       // never changes the result
+};
 
-// The actions alone, before the state machine drops what is not connected; `notes`, when given,
-// collects what was passed over and why.
+// Builds a library from a manifest (assets/schemas/manifest.schema.json) or from a folder of
+// captures without one, in which actions are found without hand work (segment.h). Paths in a
+// manifest are relative to the manifest. A capture that is marked optional and is not there is
+// passed over.
+Result<MotionLibrary> build_library(const std::filesystem::path& source,
+                                    const LibraryBuildSettings& settings = {});
+
+// The actions of a manifest alone, before the state machine drops what is not connected; `notes`,
+// when given, collects what was passed over and why.
 Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifest,
                                             std::vector<std::string>* notes = nullptr);
+
+// A library of these actions with its motion graph, and with ways through it as actions that
+// connect where they shorten the paths of the state machine.
+MotionLibrary connected_library(const std::string& name, std::vector<Action> actions,
+                                std::vector<std::string> notes,
+                                const LibraryBuildSettings& settings);
 
 }  // namespace ringcraft

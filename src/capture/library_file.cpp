@@ -1,22 +1,61 @@
 #include "capture/library_file.h"
 
+#include <fstream>
+
 #include "base/file.h"
 #include "capture/library_builder.h"
+#include "motion/library_io.h"
 
 namespace ringcraft {
 
-Result<MotionLibrary> load_library(const std::filesystem::path& library) {
-  namespace fs = std::filesystem;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Whether a file begins as a library file does; any other is taken for a manifest.
+bool is_library_file(const fs::path& file) {
+  std::string head(16, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return looks_like_library(head) || file.extension() == ".ringlib";
+}
+
+}  // namespace
+
+fs::path library_source(const fs::path& named) {
   std::error_code ignored;
-  fs::path manifest = library;
-  if (!fs::exists(manifest, ignored) && !library.has_parent_path())
-    manifest = assets_folder() / library;
-  if (fs::is_directory(manifest, ignored)) manifest /= "library.toml";
-  if (!fs::is_regular_file(manifest, ignored)) {
+  fs::path source = named;
+  if (!fs::exists(source, ignored) && !named.has_parent_path()) source = assets_folder() / named;
+  if (fs::is_regular_file(source / "library.toml", ignored)) return source / "library.toml";
+  return source;
+}
+
+Result<MotionLibrary> load_library(const fs::path& library) {
+  const fs::path source = library_source(library);
+  std::error_code ignored;
+  if (!fs::is_regular_file(source, ignored)) {
+    if (fs::is_directory(source, ignored)) {
+      return input_error(library.string(), "", "the folder holds no library.toml",
+                         "make a library of it first: ringcraft library build " + library.string() +
+                             " -o my.ringlib");
+    }
     return input_error(library.string(), "", "no motion library there",
-                       "name a manifest (library.toml), its folder, or a folder of assets");
+                       "name a library file, a manifest (library.toml), its folder, or a folder of "
+                       "assets");
   }
-  return build_library(manifest);
+  if (!is_library_file(source)) {
+    LibraryBuildSettings quick;
+    quick.connect = false;
+    return build_library(source, quick);
+  }
+  const auto bytes = read_file(source);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return library_from_bytes(*bytes, source.string());
+}
+
+Result<void> write_library(const MotionLibrary& library, const fs::path& file) {
+  return write_file(file, library_bytes(library));
 }
 
 }  // namespace ringcraft

@@ -8,7 +8,15 @@
 
 namespace ringcraft {
 
-// `library`: a manifest file, a folder that holds library.toml, or the name of a folder in assets.
+// `library`: a file that `ringcraft library build` wrote, a manifest, a folder that holds
+// library.toml, or the name of a folder in assets. A manifest is built on the spot, without a
+// motion graph: that is the work of `library build`.
 Result<MotionLibrary> load_library(const std::filesystem::path& library);
+
+// What `library build` and load_library() are given: a library file or a manifest as it is, a
+// folder's library.toml where it has one, else the folder.
+std::filesystem::path library_source(const std::filesystem::path& named);
+
+Result<void> write_library(const MotionLibrary& library, const std::filesystem::path& file);
 
 }  // namespace ringcraft

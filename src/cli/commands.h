@@ -52,6 +52,12 @@ struct SparringOptions {
   std::vector<std::string> captures = {};  // two files of one capture space
 };
 
+struct LibraryBuildOptions {
+  std::string source;  // manifest or folder of captures
+  std::string responses_from = "kickboxing";
+  bool not_mirrored = false, not_connected = false;
+};
+
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
 
@@ -64,6 +70,7 @@ int run_hit(const HitOptions& hit, const CommonOptions& options);
 int run_tree(const std::string& scene, const TreeOptions& tree, const CommonOptions& options);
 int run_sparring(const SparringOptions& sparring, const CommonOptions& options);
 int run_replay(const std::string& events_file, const CommonOptions& options);
+int run_library_build(const LibraryBuildOptions& build, const CommonOptions& options);
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);
 int run_schema(const std::string& name);

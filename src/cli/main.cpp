@@ -127,14 +127,31 @@ int run(int argc, char** argv) {
   replay->callback([&] { code = run_replay(events_file, options); });
 
   std::string library_name = "kickboxing";
-  CLI::App* library = app.add_subcommand("library", "Look into a motion library");
+  CLI::App* library = app.add_subcommand("library", "Make a motion library, look into it");
   library->require_subcommand(1);
+  LibraryBuildOptions build_options;
+  CLI::App* build =
+      library->add_subcommand("build", "One library file from a manifest or a folder of captures");
+  build
+      ->add_option("SOURCE", build_options.source, "Manifest, folder, or the name of one in assets")
+      ->required();
+  build
+      ->add_option("--responses-from", build_options.responses_from,
+                   "Library that stands in for responses a folder of captures lacks, or none")
+      ->type_name("NAME");
+  build->add_flag("--not-mirrored", build_options.not_mirrored,
+                  "No action also for the other side");
+  build->add_flag("--not-connected", build_options.not_connected, "Without the motion graph");
+  add_common(*build, options);
+  build->callback([&] { code = run_library_build(build_options, options); });
   CLI::App* inspect = library->add_subcommand("inspect", "Every action as a filmstrip and a table");
-  inspect->add_option("LIBRARY", library_name, "Manifest, folder, or the name of one in assets");
+  inspect->add_option("LIBRARY", library_name,
+                      "Library file, manifest, folder, or the name of one in assets");
   add_common(*inspect, options);
   inspect->callback([&] { code = run_library_inspect(library_name, options); });
   CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
-  check->add_option("LIBRARY", library_name, "Manifest, folder, or the name of one in assets");
+  check->add_option("LIBRARY", library_name,
+                    "Library file, manifest, folder, or the name of one in assets");
   add_common(*check, options);
   check->callback([&] { code = run_library_check(library_name, options); });
 

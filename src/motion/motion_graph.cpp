@@ -107,10 +107,22 @@ class MinimaSearch {
   }
 
  private:
+  // What a minimum is one of: of the whole map, of the row where a clip ends, of the column where
+  // one starts, or the corner of both. What ends is left there, what starts is entered there.
+  enum class Sort : std::uint8_t { inner, end, start, corner };
+  struct Minimum {
+    float distance = 0;
+    Tick leave = 0, enter = 0;
+  };
+
   void add_minima(const Rows& rows, std::size_t before, const Stretch& columns,
                   const Eigen::MatrixXf& map, std::vector<Transition>& found) const {
     const GraphSource &from = sources_[rows.stretch->source], &to = sources_[columns.source];
     const float threshold = threshold_of(from, to);
+    std::array<std::vector<Minimum>, 4> minima;
+    const auto add = [&](Sort sort, const Minimum& m) {
+      minima[static_cast<std::size_t>(sort)].push_back(m);
+    };
     for (std::size_t r = 0; r < rows.count; ++r) {
       const auto i = static_cast<Eigen::Index>(before + r);
       const Tick leave = rows.stretch->coarse.ticks[rows.first + r];
@@ -118,18 +130,24 @@ class MinimaSearch {
       for (Eigen::Index j = 0; j < map.cols(); ++j) {
         if (map(i, j) > threshold + kSlack) continue;
         const Tick enter = columns.coarse.ticks[static_cast<std::size_t>(j)];
-        // What ends is left there, what starts is entered there, at the best frame of the other.
         const bool at_start = enter == 0 && to.starts;
-        if (lowest(map, i, j, true, true)) {
-          add(rows, columns, leave, enter, true, true, threshold, found);
-        }
-        if (at_end && lowest(map, i, j, false, true)) {
-          add(rows, columns, leave, enter, false, true, threshold, found);
-        }
-        if (at_start && lowest(map, i, j, true, false)) {
-          add(rows, columns, leave, enter, true, false, threshold, found);
-        }
-        if (at_end && at_start) add(rows, columns, leave, enter, false, false, threshold, found);
+        const Minimum minimum{map(i, j), leave, enter};
+        if (lowest(map, i, j, true, true)) add(Sort::inner, minimum);
+        if (at_end && lowest(map, i, j, false, true)) add(Sort::end, minimum);
+        if (at_start && lowest(map, i, j, true, false)) add(Sort::start, minimum);
+        if (at_end && at_start) add(Sort::corner, minimum);
+      }
+    }
+    const std::size_t most =
+        settings_.most * (1 + static_cast<std::size_t>(map.cols()) / kRowsAtOnce);
+    for (const Sort sort : {Sort::inner, Sort::end, Sort::start, Sort::corner}) {
+      std::vector<Minimum>& of = minima[static_cast<std::size_t>(sort)];
+      std::stable_sort(of.begin(), of.end(),
+                       [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; });
+      if (of.size() > most) of.resize(most);
+      for (const Minimum& m : of) {
+        refine(rows, columns, m, sort == Sort::inner || sort == Sort::start,
+               sort == Sort::inner || sort == Sort::end, threshold, found);
       }
     }
   }
@@ -155,8 +173,9 @@ class MinimaSearch {
   }
 
   // Refines a minimum of the coarse map to the tick: downhill within one step of the map.
-  void add(const Rows& rows, const Stretch& columns, Tick leave, Tick enter, bool move_leave,
-           bool move_enter, float threshold, std::vector<Transition>& found) const {
+  void refine(const Rows& rows, const Stretch& columns, const Minimum& minimum, bool move_leave,
+              bool move_enter, float threshold, std::vector<Transition>& found) const {
+    Tick leave = minimum.leave, enter = minimum.enter;
     const std::size_t a = rows.stretch->source, b = columns.source;
     const Tick stride = settings_.stride;
     const auto window = [&](const Span& span, Tick tick, bool moves) {

@@ -59,6 +59,7 @@ struct GraphSettings {
   float answering = 0.25f;  // out of responses and get-ups
   Tick stride = 4;          // of the coarse map; its minima are refined to the tick
   Tick apart = 24;          // ticks between two frames of one clip that may be joined
+  std::size_t most = 2;     // minima of one sort kept for 3 s of one clip against 3 s of another
   int threads = 1;          // never changes the result
 };
 

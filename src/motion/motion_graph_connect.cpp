@@ -14,7 +14,7 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kFar = std::numeric_limits<Tick>::max() / 4;
-constexpr std::size_t kAtOnce = 12;             // ways made before paths are looked at again
+constexpr std::size_t kAtOnce = 24;             // ways made before paths are looked at again
 constexpr Tick kRootEases = 24;                 // ticks in which the root track makes good a seam
 constexpr Tick kNoPath = 10 * kTicksPerSecond;  // what an action that cannot be reached counts for
 
@@ -53,22 +53,27 @@ class WaySearch {
       cost[t] = 0;
       open.emplace(0, t);
     }
+    std::vector<std::vector<Arrival>> arrivals(sources_.size());
     while (!open.empty()) {
       const auto [ticks, at] = open.top();
       open.pop();
       if (ticks > cost[at]) continue;
       const Transition& in = transitions[at];
+      const auto clip = static_cast<std::size_t>(in.to_clip);
       const Tick last = quiet_until(in.to_clip, in.to);
-      for (const std::size_t t : out_of_[static_cast<std::size_t>(in.to_clip)]) {
-        const Tick run = transitions[t].from - in.to;
-        if (run < settings_.shortest || transitions[t].from > last) continue;
+      if (!worth_it(arrivals[clip], {in.to, last, ticks - in.to})) continue;
+      const auto first =
+          std::lower_bound(out_of_[clip].begin(), out_of_[clip].end(), in.to + settings_.shortest,
+                           [&](std::size_t t, Tick tick) { return transitions[t].from < tick; });
+      for (auto t = first; t != out_of_[clip].end() && transitions[*t].from <= last; ++t) {
+        const Tick run = transitions[*t].from - in.to;
         const Tick now = played[at] + run;
         const Tick total = ticks + run + settings_.seam;
-        if (now > settings_.longest || total >= cost[t]) continue;
-        cost[t] = total;
-        played[t] = now;
-        before[t] = at;
-        open.emplace(total, t);
+        if (now > settings_.longest || total >= cost[*t]) continue;
+        cost[*t] = total;
+        played[*t] = now;
+        before[*t] = at;
+        open.emplace(total, *t);
       }
     }
     return best_ways(action, actions, cost, played, before);
@@ -76,6 +81,23 @@ class WaySearch {
 
  private:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  // Where a clip was entered, how far it is quiet from there, and its cost less that tick: what it
+  // costs to be at a later tick by this arrival is the tick more.
+  struct Arrival {
+    Tick tick = 0, last = 0, offset = 0;
+  };
+
+  // False where an earlier arrival in the same span is at every later tick for no more.
+  static bool worth_it(std::vector<Arrival>& arrivals, const Arrival& now) {
+    for (const Arrival& other : arrivals) {
+      if (other.last == now.last && other.tick <= now.tick && other.offset <= now.offset) {
+        return false;
+      }
+    }
+    arrivals.push_back(now);
+    return true;
+  }
 
   // The last tick of the span that holds `tick`: until there nothing but quiet motion is played.
   Tick quiet_until(std::int32_t clip, Tick tick) const {

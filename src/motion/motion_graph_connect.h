@@ -16,11 +16,11 @@
 namespace ringcraft {
 
 struct ConnectSettings {
-  Tick shortest = 12;     // ticks played at least between two transitions
-  Tick longest = 144;     // ticks of a whole way
-  Tick seam = 12;         // ticks that a transition more has to save
-  Tick gain = 24;         // ticks by which a way must be shorter than the present path
-  std::size_t most = 96;  // ways that are made at most
+  Tick shortest = 12;      // ticks played at least between two transitions
+  Tick longest = 144;      // ticks of a whole way
+  Tick seam = 12;          // ticks that a transition more has to save
+  Tick gain = 24;          // ticks by which a way must be shorter than the present path
+  std::size_t most = 192;  // ways that are made at most
 };
 
 // Frames first..last of one clip of the graph, played on the way.

@@ -99,12 +99,16 @@ class Reader {
 
   Result<void> read_library() {
     const auto name = value_["library"].get<std::string>();
-    const bool bare = name.find('/') == std::string::npos;
-    scene_.library = bare ? assets_folder() / name : document_.path.parent_path() / name;
-    if (fs::is_directory(scene_.library)) return {};
-    return input_error(document_.path.string(), document_.place("/library"),
-                       "no such folder: " + scene_.library.string(),
-                       "name a motion library's folder under assets, as \"kickboxing\"");
+    // A path in the file is relative to the file, one of the command line to where that is given.
+    const std::string place = document_.place("/library");
+    const bool bare = name.find('/') == std::string::npos && fs::path(name).extension().empty();
+    const fs::path relative_to = place == "--set" ? fs::path() : document_.path.parent_path();
+    scene_.library = bare ? assets_folder() / name : relative_to / name;
+    if (fs::is_directory(scene_.library) || fs::is_regular_file(scene_.library)) return {};
+    return input_error(document_.path.string(), place,
+                       "no such folder or library file: " + scene_.library.string(),
+                       "name a motion library's folder under assets, as \"kickboxing\", or a file "
+                       "that `ringcraft library build` wrote");
   }
 
   void read_planner() {

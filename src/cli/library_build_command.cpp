@@ -1,0 +1,102 @@
+// `ringcraft library build`: captures and sheets to one library file.
+
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/hash.h"
+#include "capture/library_builder.h"
+#include "capture/library_file.h"
+#include "cli/commands.h"
+
+namespace ringcraft {
+
+namespace {
+
+// What a fighter waits between two actions that do not follow each other directly, ticks, over all
+// pairs that may be launched.
+double mean_path(const MotionLibrary& library) {
+  double ticks = 0, pairs = 0;
+  for (const ActionId from : library.launchable()) {
+    for (const ActionId to : library.launchable()) {
+      const Path* path = library.machine().path(from, to);
+      if (path == nullptr) continue;
+      ticks += path->ticks;
+      ++pairs;
+    }
+  }
+  return pairs > 0 ? ticks / pairs : 0;
+}
+
+nlohmann::json summary_of(const MotionLibrary& library) {
+  std::size_t connecting = 0;
+  for (const Action& action : library.actions()) connecting += action.connects ? 1u : 0u;
+  return {{"name", library.name()},
+          {"hash", hash_name(library.hash())},
+          {"actions",
+           library.launchable().size() + library.responses().size() + library.get_ups().size()},
+          {"attacks", library.count(Kind::attack)},
+          {"combinations", library.count(Kind::combination)},
+          {"defenses", library.count(Kind::defense)},
+          {"transitions", library.count(Kind::transition)},
+          {"idles", library.count(Kind::idle)},
+          {"responses", library.count(Kind::response)},
+          {"get_ups", library.count(Kind::get_up)},
+          {"connecting", connecting},
+          {"dropped", library.dropped()},
+          {"notes", library.notes()},
+          {"mean_path_ticks", mean_path(library)},
+          {"graph",
+           {{"clips", library.graph().clips.size()},
+            {"pairs", library.graph().pairs},
+            {"minima", library.graph().minima},
+            {"transitions", library.graph().transitions.size()}}}};
+}
+
+}  // namespace
+
+int run_library_build(const LibraryBuildOptions& build, const CommonOptions& options) {
+  LibraryBuildSettings settings;
+  settings.responses_from = build.responses_from == "none" ? "" : build.responses_from;
+  settings.mirrored = !build.not_mirrored;
+  settings.connect = !build.not_connected;
+  settings.threads = options.threads;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto library = build_library(library_source(build.source), settings);
+  if (!library) return fail(library.error());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const std::filesystem::path file = options.out.empty()
+                                         ? std::filesystem::path(library->name() + ".ringlib")
+                                         : std::filesystem::path(options.out);
+  if (const auto written = write_library(*library, file); !written) return fail(written.error());
+  if (const auto read = load_library(file); !read) return fail(read.error());
+  const nlohmann::json summary = summary_of(*library);
+  if (options.verbose > 0) {
+    for (const std::string& note : library->notes()) fmt::print(stderr, "{}\n", note);
+  }
+  if (!options.quiet) {
+    for (const std::string& dropped : library->dropped())
+      fmt::print(stderr, "dropped: {}\n", dropped);
+    fmt::print(stderr, "built in {:.1f} s\n", took.count());
+  }
+  if (options.json) {
+    fmt::print("{}\n", summary.dump(1));
+    return 0;
+  }
+  const auto number = [&](const char* key) { return summary[key].get<std::size_t>(); };
+  fmt::print(
+      "{}: {} actions ({} attacks, {} combinations, {} defenses, {} transitions, {} idles, {} "
+      "responses, {} get-ups), {} dropped\n"
+      "motion graph: {} transitions between {} clips; {} short ways of it connect actions; from "
+      "one "
+      "action to the next {:.1f} ticks in the mean\n",
+      file.string(), number("actions"), number("attacks"), number("combinations"),
+      number("defenses"), number("transitions"), number("idles"), number("responses"),
+      number("get_ups"), library->dropped().size(), library->graph().transitions.size(),
+      library->graph().clips.size(), number("connecting"),
+      summary["mean_path_ticks"].get<double>());
+  return 0;
+}
+
+}  // namespace ringcraft
