@@ -135,9 +135,9 @@ Segmentation segment(const Skeleton& skeleton, const Clip& capture, const std::s
   out.notes.push_back(guard.evidence);
   const Found found{m, guard, out.blows, falls,
                     staggers(m, guard, free_ticks(m, out.blows, falls))};
-  for (std::vector<FoundAction>& part : std::array<std::vector<FoundAction>, 5>{
+  for (std::vector<FoundAction>& part : std::array<std::vector<FoundAction>, 6>{
            attack_segments(found), block_segments(found), fall_segments(found, out.notes),
-           quiet_segments(found), stagger_segments(found, capture)})
+           quiet_segments(found), stagger_segments(found, capture), parry_segments(found)})
     for (FoundAction& segment : part) out.segments.push_back(std::move(segment));
   std::stable_sort(
       out.segments.begin(), out.segments.end(),

@@ -27,6 +27,8 @@ constexpr float kHeadBelow = 0.005f;  // H under the own shoulder that is still 
 constexpr float kChin = 0.78f;        // H: an uppercut or hook that rises past it goes to the head
 constexpr Tick kOneStroke = 36;       // ticks
 constexpr float kCloses = 0.10f;      // extension by which an arm closes between two blows
+constexpr float kRisesBent =
+    0.90f;  // extension of a rising block at most: the forearm lies before the head
 constexpr float kUpright = radians(35);
 constexpr float kSteepDown = -0.75f;  // share of the velocity: a hand that drops does not strike
 constexpr float kBentDown = -0.20f;
@@ -100,7 +102,7 @@ bool sweeps_out(const Measures& m, const Stroke& s, const SegmentSettings& set) 
 
 bool rises(const Measures& m, const Stroke& s, const SegmentSettings& set) {
   return s.speed >= set.block_speed && s.way.y >= set.rises && s.most >= set.bent_least &&
-         s.most <= set.bent_most &&
+         s.most <= kRisesBent &&
          s.highest > m.at(arm(s.side).root, m.clamped(s.peak + kPeakAround)).y &&
          s.highest >= kChin * m.height;
 }
@@ -112,9 +114,8 @@ bool is_straight(const Stroke& s, const SegmentSettings& set) {
 
 bool is_bent(const Measures& m, const Stroke& s, const SegmentSettings& set) {
   return s.speed >= set.bent_speed && s.way.z >= set.bent_ahead && s.way.y >= kBentDown &&
-         s.most >= set.bent_least && s.most <= set.bent_most &&
-         s.to.z - s.from.z >= set.bent_gain * m.height && s.turned <= set.gaze_turn &&
-         m.hips_speed[at(s.peak)] <= set.travelling;
+         s.most >= set.bent_least && s.to.z - s.from.z >= set.bent_gain * m.height &&
+         s.turned <= set.gaze_turn && m.hips_speed[at(s.peak)] <= set.travelling;
 }
 
 // The hand leaves: the last moment before the peak at which it was slow.

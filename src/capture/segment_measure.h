@@ -21,7 +21,6 @@ struct SegmentSettings {
   float bent_speed = 4.05f;      // the same as straight_speed, for hooks and uppercuts
   float bent_ahead = 0.20f;      // as goes_ahead
   float bent_least = 0.50f;      // extension a bent-arm blow has at least
-  float bent_most = 0.95f;       // and at most
   float bent_gain = 0.08f;       // H the fist gains along the gaze
   float gaze_turn = 0.90f;       // rad the gaze may turn in a bent-arm blow
   float block_speed = 3.5f;      // for blocks

@@ -33,6 +33,7 @@ std::vector<FoundAction> attack_segments(const Found& found);
 std::vector<FoundAction> block_segments(const Found& found);
 std::vector<FoundAction> fall_segments(const Found& found, std::vector<std::string>& notes);
 std::vector<FoundAction> quiet_segments(const Found& found);
+std::vector<FoundAction> parry_segments(const Found& found);
 std::vector<FoundAction> stagger_segments(const Found& found, const Clip& capture);
 
 }  // namespace ringcraft
