@@ -32,6 +32,7 @@ constexpr StudyEntry kStudies[] = {
      run_penetration_study},
     {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
      run_clips_study},
+    {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0, run_hits_study},
 };
 
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
@@ -131,6 +132,8 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
     one->add_option("--bouts", study->bouts, "Bouts of each pairing")->check(CLI::Range(1, 10000));
     one->add_option("--duration", study->duration_s, "Length of a bout, s")
         ->check(CLI::Range(0.5, 3600.0));
+    one->add_option("--count", study->count, "Random hits of each question")
+        ->check(CLI::Range(1, 1'000'000));
     one->add_option("--library", study->library, "Motion library");
     one->add_option("--body", study->body, "A file of assets/bodies");
     one->add_option("--distance", study->distance_m, "m between the roots")

@@ -20,6 +20,7 @@ struct StudyOptions {
   std::string library = "kickboxing";
   std::string body = "middleweight";
   std::optional<int> bouts;
+  std::optional<int> count;  // of random hits
   std::optional<double> duration_s;
   float distance_m = 0.95f;  // between the two motions
   double later_s = 0;        // by which the second motion begins later
@@ -29,6 +30,7 @@ struct StudyOptions {
 
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options);
 int run_clips_study(const StudyOptions& study, const CommonOptions& options);
+int run_hits_study(const StudyOptions& study, const CommonOptions& options);
 
 // Writes the study's files and prints its table (or its JSON); the exit code is `code`, or 130
 // where it was interrupted.

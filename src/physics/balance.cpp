@@ -51,6 +51,15 @@ Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate) {
   return {xi.x, 0, xi.z};
 }
 
+Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate, Vec3 angular_momentum,
+                  float mass) {
+  // Dumping H moves the centre of mass by (H x up) / (m h w0), h = g / w0^2; what is shed later
+  // counts less, by e^(-w0 t): with 0.1 s the rule agrees best with bodies simulated to their end.
+  const float later = std::exp(-rate * .1f);
+  const Vec3 shed = glm::cross(angular_momentum, kUp) * (later * rate / (mass * kGravity));
+  return extrapolated(center_of_mass, velocity, rate) + Vec3{shed.x, 0, shed.z};
+}
+
 Base::Base(std::span<const Vec3> points) {
   std::vector<Vec2> flat;
   for (const Vec3& p : points) flat.emplace_back(p.x, p.z);

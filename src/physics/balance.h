@@ -15,6 +15,13 @@ float pendulum_rate(const BodyModel& body);
 // Extrapolated centre of mass on the ground, m: x + v / w0.
 Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate);
 
+// The same for a body that also turns (`angular_momentum` about its centre of mass, kg m2/s, `mass`
+// in kg): what is shed to the ground pushes the centre of mass as the centroidal moment pivot says
+// (Popovic, Goswami, Herr 2005), so a body thrown over by its head is farther out than its velocity
+// tells, and one whose legs are swept forward less far.
+Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate, Vec3 angular_momentum,
+                  float mass);
+
 // Convex hull of points on the ground (y is ignored), counter-clockwise seen from above (+X to +Z
 // is clockwise there: what counts is that `beyond` agrees). Fewer than three corners are allowed.
 class Base {

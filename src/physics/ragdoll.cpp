@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <btBulletDynamicsCommon.h>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr int kIterations = 20;
 constexpr float kFastestServo = 12;        // rad/s toward a resting target
 constexpr float kFastestFeedForward = 40;  // rad/s with the target's own motion
+constexpr float kStopTau = .02f;           // s in which a joint beyond its range is back
+constexpr float kStopStrength = 3;         // of the muscle's torque: a joint's stop holds more
 constexpr float kMostStartSpeed = 25;      // m/s: a jump in the input must not explode
 constexpr float kMostStartTurning = 60;    // rad/s
 constexpr float kMargin = 0.004f;          // m: collision margin of the soles
@@ -56,6 +59,11 @@ class Servo final : public btTypedConstraint {
     turning_ = turning_in_parent;
   }
 
+  void stop(std::optional<Quat> back, float most) {
+    back_ = back;
+    stop_torque_ = most;
+  }
+
   float torque = 0;  // N m at the present tone
   float stiffness = 0, damping = 0;
   float tau = .05f;  // s
@@ -68,9 +76,9 @@ class Servo final : public btTypedConstraint {
 
   void getInfo2(btConstraintInfo2* info) override {
     const Quat child = quat(m_rbA.getOrientation()), parent = quat(m_rbB.getOrientation());
-    const Vec3 error = rotation_vector(parent * target_ * glm::conjugate(child));
-    const Vec3 feed = parent * turning_;
-    Vec3 wanted = limited(error / tau, kFastestServo) + feed;
+    const Vec3 error = rotation_vector(parent * back_.value_or(target_) * glm::conjugate(child));
+    const Vec3 feed = back_ ? Vec3{} : parent * turning_;
+    Vec3 wanted = limited(error / (back_ ? kStopTau : tau), kFastestServo) + feed;
     wanted = limited(wanted, kFastestFeedForward);
     const float speed = glm::length(wanted);
     const Vec3 along = speed > 1e-6f ? wanted / speed : Vec3{1, 0, 0};
@@ -86,8 +94,8 @@ class Servo final : public btTypedConstraint {
         info->m_J2angularAxis[row + c] = -axes[k][c];
       }
       info->m_constraintError[row] = k == 0 ? speed : 0;
-      float most = torque;
-      if (gives) {
+      float most = back_ ? stop_torque_ : torque;
+      if (gives && !back_) {
         const float turning = glm::dot(relative, axes[k]);
         most = k == 0
                    ? std::min(torque, std::abs(stiffness * glm::length(error) - damping * turning))
@@ -103,7 +111,9 @@ class Servo final : public btTypedConstraint {
 
  private:
   Quat target_;
-  Vec3 turning_{};  // of the target, in the parent's frame, rad/s
+  Vec3 turning_{};            // of the target, in the parent's frame, rad/s
+  std::optional<Quat> back_;  // where a joint beyond its range goes
+  float stop_torque_ = 0;     // N m
 };
 
 // World rotations of the parts' joints for a pose.
@@ -358,13 +368,23 @@ void Ragdoll::set_servo(float tau, bool gives) {
   }
 }
 
+void Ragdoll::stop(const Pose& back, const std::array<bool, kPartCount>& beyond) {
+  const auto r = part_rotations(world_pose(world_->body.skeleton, back));
+  for (std::size_t i = 1; i < kPartCount; ++i) {
+    std::optional<Quat> to;
+    if (beyond[i]) to = glm::normalize(relative_rotation(r, i));
+    world_->servos[i]->stop(to, kStopStrength * muscle_of(world_->body, part_at(i)).torque);
+  }
+}
+
 void Ragdoll::push(Part part, Vec3 point, Vec3 impulse) {
   btRigidBody& b = *world_->bodies[index(part)];
   b.applyImpulse(bt(impulse), bt(point) - b.getCenterOfMassPosition());
 }
 
 void Ragdoll::step() {
-  world_->world->stepSimulation(kRagdollStep, 0);
+  // With 0 substeps Bullet takes the whole time as one step.
+  world_->world->stepSimulation(world_->settings.step, 0);
 }
 
 PartMotion Ragdoll::motion(Part part) const {
@@ -418,6 +438,20 @@ Vec3 Ragdoll::center_of_mass_velocity() const {
     sum += world_->body.parts[i].mass * vec(world_->bodies[i]->getLinearVelocity());
   }
   return sum / world_->body.spec.mass;
+}
+
+Vec3 Ragdoll::angular_momentum() const {
+  const Vec3 at = center_of_mass(), going = center_of_mass_velocity();
+  Vec3 sum{};
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const btRigidBody& b = *world_->bodies[i];
+    const Vec3 offset = vec(b.getCenterOfMassPosition()) - at;
+    sum += world_->body.parts[i].mass * glm::cross(offset, vec(b.getLinearVelocity()) - going);
+    const Quat turn = quat(b.getOrientation());
+    const Vec3 spin = glm::conjugate(turn) * vec(b.getAngularVelocity());
+    sum += turn * (world_->body.parts[i].inertia * spin);
+  }
+  return sum;
 }
 
 float Ragdoll::fastest() const {

@@ -18,6 +18,7 @@ struct RagdollSettings {
   float friction = 0.9f;  // of parts on the ground
   bool gravity = true;
   bool ground = true;
+  float step = kRagdollStep;  // s
 };
 
 // The motion of one part: its joint's frame, and the velocities of its centre of mass.
@@ -44,6 +45,9 @@ class Ragdoll {
   void set_tone(const Tone& tone);
   // Time constant of the servo, s, and whether it gives like a muscle (stiffness-limited) or holds.
   void set_servo(float tau, bool gives);
+  // Joint stops for the next step: a part that is `beyond` its range is driven to its place in
+  // `back`, whatever its muscle's tone. (Bullet's cones are soft where they are wide.)
+  void stop(const Pose& back, const std::array<bool, kPartCount>& beyond);
   void push(Part part, Vec3 point, Vec3 impulse);  // world, m and N s
   void step();
 
@@ -51,7 +55,8 @@ class Ragdoll {
   PartMotion motion(Part part) const;
   Vec3 center_of_mass() const;
   Vec3 center_of_mass_velocity() const;
-  float fastest() const;  // largest speed of any part's centre of mass, m/s
+  Vec3 angular_momentum() const;  // about the centre of mass, kg m2/s
+  float fastest() const;          // largest speed of any part's centre of mass, m/s
 
  private:
   struct World;

@@ -149,10 +149,7 @@ class Mender {
     }
     pose = within_limits(body_, pose, kLimitTolerance, before);
     if (started_) hold_back(simulated, pose);
-    const WorldPose world = world_pose(body_.skeleton, pose);
-    const float depth = std::max(depth_below_ground(body_, world, Side::left),
-                                 depth_below_ground(body_, world, Side::right));
-    if (depth >= kLeast) pose.hips.y += depth;
+    raise(pose);
     started_ = true;
     simulated_ = simulated;
     shown_ = pose;
@@ -160,8 +157,15 @@ class Mender {
   }
 
  private:
-  static constexpr float kLeast = .001f;           // m
-  static constexpr float kMostTurn = radians(60);  // a tick, beside what the simulation turns
+  static constexpr float kLeast = .001f;  // m
+  static constexpr float kGives = .015f;  // m: so deep may what is soft press
+  static constexpr float kRaise = .008f;  // m a tick
+  // Of a correction in a tick: a hand or the toes carry nothing that would be flung.
+  static float most_turn(Joint joint) {
+    const bool last = joint == Joint::left_hand || joint == Joint::right_hand ||
+                      joint == Joint::left_toes || joint == Joint::right_toes;
+    return radians(last ? 30.0f : 8.0f);
+  }
 
   static float angle(Quat a, Quat b) { return glm::length(rotation_vector(a * glm::conjugate(b))); }
 
@@ -174,18 +178,37 @@ class Mender {
     if (limit_violations(body_, lifted, kLimitTolerance + radians(.5f)).empty()) pose = lifted;
   }
 
+  // What no limb can mend, the whole body does: soles at once, anything else that is deep bit by
+  // bit.
+  void raise(Pose& pose) {
+    const WorldPose world = world_pose(body_.skeleton, pose);
+    const float soles = std::max(depth_below_ground(body_, world, Side::left),
+                                 depth_below_ground(body_, world, Side::right));
+    float deepest = 0;
+    for (const Capsule& c : capsules(body_, world)) {
+      deepest = std::max(deepest, c.radius - std::min(c.a.y, c.b.y) - kGives);
+    }
+    raised_ += std::clamp(deepest - raised_, -kRaise, kRaise);
+    const float up = std::max(soles >= kLeast ? soles : 0.0f, raised_);
+    pose.hips.y += up;
+  }
+
+  // The correction of each joint may grow and go by so much a tick and no more.
   void hold_back(const Pose& simulated, Pose& pose) const {
     for (std::size_t j = 0; j < kJointCount; ++j) {
-      const float most = angle(simulated.rotation[j], simulated_.rotation[j]) + kMostTurn;
-      const float turn = angle(pose.rotation[j], shown_.rotation[j]);
+      const Quat last = shown_.rotation[j] * glm::conjugate(simulated_.rotation[j]);
+      const Quat wanted = pose.rotation[j] * glm::conjugate(simulated.rotation[j]);
+      const float turn = angle(wanted, last), most = most_turn(joint_at(j));
       if (turn <= most) continue;
-      const Quat to = in_hemisphere_of(pose.rotation[j], shown_.rotation[j]);
-      pose.rotation[j] = glm::normalize(glm::slerp(shown_.rotation[j], to, most / turn));
+      const Quat held =
+          glm::normalize(glm::slerp(last, in_hemisphere_of(wanted, last), most / turn));
+      pose.rotation[j] = glm::normalize(held * simulated.rotation[j]);
     }
   }
 
   const BodyModel& body_;
   bool started_ = false;
+  float raised_ = 0;        // m
   Pose simulated_, shown_;  // of the tick before
 };
 
@@ -202,6 +225,7 @@ class Shown {
                  {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
         balance_(body, frame_),
         mend_(body),
+        within_(frame_.pose()),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
@@ -216,10 +240,29 @@ class Shown {
 
  private:
   void step(int k) {
+    keep_ranges();
     if (k < steps_of_blow_) {
       strike(ragdoll_, body_, frame_, 1.0f / static_cast<float>(steps_of_blow_));
     }
     ragdoll_.step();
+  }
+
+  // A joint that is beyond its range is driven back: in a limp fall arms fly far.
+  void keep_ranges() {
+    const Pose pose = ragdoll_.pose();
+    const auto violations = limit_violations(body_, pose, 0);
+    std::array<bool, kPartCount> beyond{};
+    for (const LimitViolation& v : violations) {
+      const auto part = part_of(v.joint);
+      if (!part) continue;
+      beyond[index(*part)] = true;
+      if (*part == Part::abdomen) beyond[index(Part::chest)] = true;
+      if (*part == Part::neck) beyond[index(Part::head)] = true;
+    }
+    if (!stopped_ && violations.empty()) return;
+    stopped_ = !violations.empty();
+    ragdoll_.stop(stopped_ ? within_limits(body_, pose, 0, within_) : pose, beyond);
+    within_ = pose;
   }
 
   // The clip in the canonical frame; without one, the cut action goes on.
@@ -315,6 +358,8 @@ class Shown {
   Ragdoll ragdoll_;
   Balance balance_;
   Mender mend_;
+  bool stopped_ = false;  // some joint is being driven back
+  Pose within_;           // the last pose looked at
   int steps_of_blow_;
   bool protecting_ = false;
   Pose protective_;

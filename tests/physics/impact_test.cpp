@@ -8,6 +8,7 @@
 #include "physics/hit.h"
 #include "physics/impact_frame.h"
 #include "physics/ragdoll.h"
+#include "physics/trial.h"
 
 namespace ringcraft {
 namespace {
@@ -69,9 +70,7 @@ TEST_F(Impact, AHarderHitIsNeverAnsweredByLess) {
         int last = 0;
         for (float impulse = 0; impulse <= 240; impulse += 12) {
           const int now = severity(outcome_of(body, pose, part, impulse * way));
-          // A swept foot may come down again in a better place: one grade of slack there.
-          const int slack = part == Part::left_shin ? 1 : 0;
-          EXPECT_GE(now, last - slack) << name_of(part) << " " << impulse << " " << yaw_of(way);
+          EXPECT_GE(now, last) << name_of(part) << " " << impulse << " " << yaw_of(way);
           last = now;
         }
       }
@@ -150,6 +149,20 @@ TEST_F(Impact, AFootInTheAirHoldsLess) {
 TEST_F(Impact, ASweptLegTopples) {
   EXPECT_EQ(severity(outcome_of(body, fighting, Part::left_shin, {150, 0, 0})), 4);
   EXPECT_EQ(severity(outcome_of(body, square, Part::left_shin, {0, 0, 200})), 4);
+}
+
+// V7: a hard kick to the leg that carries takes it away; a tap, and a raised leg's own swing, do
+// not.
+TEST_F(Impact, ASweepOfTheCarryingLegTopplesAndATapDoesNot) {
+  for (const Vec3& way : {kLeft, -kLeft}) {
+    for (const Pose& pose : {square, fighting}) {
+      EXPECT_EQ(severity(outcome_of(body, pose, Part::left_shin, 72.0f * way)), 4);
+      EXPECT_EQ(severity(outcome_of(body, pose, Part::left_shin, 5.0f * way)), 0);
+      Hit raised(body, pose, Part::left_shin, 30.0f * way);
+      raised.input.contacts = {false, true};
+      EXPECT_LT(severity(impulse_step(body, raised.input)), 4);
+    }
+  }
 }
 
 TEST_F(Impact, ATapInMidStepIsAbsorbed) {
@@ -231,16 +244,17 @@ TEST_F(Impact, TheLargeAndTheSmallScaleAsTheirPendulum) {
   EXPECT_NEAR(large / middle, 37.0f / 29, .16f);
 }
 
-// ragdoll.md section 3: N s held without a step, fore/aft/left/right, by the rule at 100 ms.
-TEST_F(Impact, ThresholdsAreThoseOfTheMeasuredTable) {
+// ragdoll.md section 3: N s held without a step, fore/aft/left/right, by the body simulated to its
+// end; the decision comes within a quarter of it.
+TEST_F(Impact, ThresholdsAreThoseOfTheSimulatedTable) {
   struct Row {
     Part part;
     std::array<float, 4> square;
   };
-  const Row rows[] = {{Part::chest, {30, 25, 33, 33}},
-                      {Part::pelvis, {42, 33, 44, 44}},
-                      {Part::head, {25, 21, 28, 27}},
-                      {Part::left_thigh, {51, 40, 49, 52}}};
+  const Row rows[] = {{Part::chest, {29, 25, 32, 32}},
+                      {Part::pelvis, {40, 36, 51, 58}},
+                      {Part::head, {25, 21, 26, 25}},
+                      {Part::left_thigh, {71, 49, 63, 67}}};
   for (const Row& row : rows) {
     for (std::size_t d = 0; d < 4; ++d) {
       float low = 0, high = 150;
@@ -248,12 +262,12 @@ TEST_F(Impact, ThresholdsAreThoseOfTheMeasuredTable) {
         const float m = (low + high) / 2;
         (outcome_of(body, square, row.part, m * kWays[d]).margin <= 0 ? low : high) = m;
       }
-      EXPECT_NEAR(low, row.square[d], .15f * row.square[d]) << name_of(row.part) << " " << d;
+      EXPECT_NEAR(low, row.square[d], .25f * row.square[d]) << name_of(row.part) << " " << d;
     }
   }
 }
 
-// ragdoll.md section 2: at 100 ms the rule agrees with the simulated end in 96 % of random hits.
+// At 100 ms the decision agrees with the simulated end (`ringcraft study hits` tries more).
 TEST_F(Impact, TheRuleAgreesWithTheSimulatedEnd) {
   Random random(21);
   int agreed = 0;
@@ -267,21 +281,9 @@ TEST_F(Impact, TheRuleAgreesWithTheSimulatedEnd) {
     hit.input.tone = random.uniform(.5f, 1);
     const bool held = impulse_step(body, hit.input).margin <= 0;
 
-    const ImpactFrame frame(body, hit.input);
-    Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
-    ragdoll.set_tone(whole_body(hit.input.tone));
-    strike(ragdoll, body, frame, 1);
-    Balance balance(body, frame);
-    const float height = ragdoll.center_of_mass().y;
-    bool fell = false;
-    for (int k = 0; k < 600 && !fell; ++k) {
-      balance.guide(ragdoll, frame, k);
-      ragdoll.step();
-      fell = ragdoll.center_of_mass().y < .75f * height;
-    }
-    agreed += held != fell;
+    agreed += held != simulate_standing(body, hit.input).fell ? 1 : 0;
   }
-  EXPECT_GE(agreed, kHits * 85 / 100);
+  EXPECT_GE(agreed, kHits * 90 / 100);
 }
 
 }  // namespace

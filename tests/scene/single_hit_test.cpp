@@ -10,6 +10,7 @@ namespace {
 
 using hits::library;
 using hits::query;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
@@ -105,7 +106,7 @@ TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().kind, ErrorKind::usage);
   EXPECT_THAT(answer.error().what, HasSubstr("cross does not land on the leftShin"));
-  EXPECT_THAT(answer.error().remedy, HasSubstr("it meets head"));
+  EXPECT_THAT(answer.error().remedy, HasSubstr("head 0."));
 }
 
 TEST(PlacedStrike, FromAGivenDistanceMeetsOrSaysFromWhereItWould) {

@@ -1,0 +1,266 @@
+// V4 and V7: what people see of an answer, and the failures that game makers report.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/random.h"
+#include "motion/quality.h"
+#include "physics/ragdoll.h"
+#include "physics/response.h"
+#include "physics/stances.h"
+#include "planner/root_search.h"
+#include "scene/study_hits_rows.h"
+
+namespace ringcraft {
+
+namespace {
+
+// A random hit on a random pose of the library.
+HitQuery random_query(const MotionLibrary& library, std::uint64_t seed, float least, float most) {
+  Random random(seed);
+  HitQuery query;
+  const auto& launchable = library.launchable();
+  const Action& action = library.action(
+      launchable[static_cast<std::size_t>(random.below(static_cast<int>(launchable.size())))]);
+  query.action = action.name;
+  query.at_s = static_cast<double>(random.uniform(.1f, .9f)) * seconds(action.length());
+  constexpr std::array<Part, 7> kParts{Part::head,          Part::head,       Part::chest,
+                                       Part::abdomen,       Part::left_thigh, Part::right_thigh,
+                                       Part::left_upper_arm};
+  query.part = kParts[static_cast<std::size_t>(random.below(7))];
+  const float way = random.uniform(-kPi, kPi);
+  query.impulse = random.uniform(least, most) * (yaw_rotation(way) * kForward);
+  query.tone = random.uniform(.6f, 1);
+  return query;
+}
+
+struct Seam {
+  double apart = 0;     // m between two frames, beyond what the clip itself moves
+  double velocity = 0;  // m/s by which a joint's velocity changes between two frames at 60 Hz
+};
+
+// The worst joint over a span of shown frames, every second tick (60 Hz, as people see it).
+Seam seam_over(const Skeleton& skeleton, const std::vector<Pose>& frames, Tick from, Tick to) {
+  Seam worst;
+  const auto at = [&](Tick t) {
+    const auto last = static_cast<Tick>(frames.size()) - 1;
+    return world_pose(skeleton, frames[static_cast<std::size_t>(std::clamp(t, 0, last))]);
+  };
+  for (Tick t = from; t <= to; t += 2) {
+    const WorldPose a = at(t - 4), b = at(t - 2), c = at(t);
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Vec3 before = b.position[j] - a.position[j], after = c.position[j] - b.position[j];
+      const auto jump = static_cast<double>(glm::distance(before, after));
+      worst.apart = std::max(worst.apart, jump);
+      worst.velocity = std::max(worst.velocity, jump * 60);
+    }
+  }
+  return worst;
+}
+
+struct Answered {
+  bool done = false, stays_up = false, falls = false, knocked_out = false, got_up = false;
+  Seam into_clip, into_get_up, back_to_guard;
+  double skate = 0;
+  double off = 0;        // rad between the impulse and where the body goes
+  double onset = 0;      // s until the struck joint moves otherwise than it would have
+  double in_charge = 0;  // s until the clip alone is shown
+  int answers = 0;
+};
+
+// Where one segment of a track gives way to the next: the tick of the first frame of the new one.
+Answered answered(const MotionLibrary& library, const HitQuery& query) {
+  Answered a;
+  const auto answer = simulate_hit(library, query);
+  if (!answer) return a;
+  a.done = true;
+  const FighterTrack& track = answer->timeline.tracks.front();
+  const BodyModel& body = answer->bodies.front();
+  const ImpactOutcome& outcome = answer->outcome;
+  a.falls = outcome.response == ResponseKind::knockdown;
+  a.stays_up = !a.falls;
+  a.knocked_out = outcome.knockout;
+  for (const Event& event : answer->timeline.events) {
+    a.answers += event.type == EventType::response || event.type == EventType::knockdown ? 1 : 0;
+  }
+  constexpr Tick kSimulated = 18;
+  for (std::size_t i = 1; i < track.segments.size(); ++i) {
+    const Segment& s = track.segments[i];
+    const Tick start = s.launch.start;
+    if (start < answer->hit_tick) continue;
+    if (s.kind == Kind::response) {
+      if (!a.falls)
+        a.into_clip =
+            seam_over(body.skeleton, track.frames, start + kSimulated, start + kSimulated + 6);
+    } else if (s.kind == Kind::get_up) {
+      a.into_get_up = seam_over(body.skeleton, track.frames, start, start + 8);
+    } else {
+      const Seam seam = seam_over(body.skeleton, track.frames, start, start + 8);
+      a.back_to_guard.velocity = std::max(a.back_to_guard.velocity, seam.velocity);
+      a.back_to_guard.apart = std::max(a.back_to_guard.apart, seam.apart);
+    }
+  }
+  const float up = world_pose(body.skeleton, rest_pose(body.skeleton)).position[0].y;
+  a.got_up = track.frames.back().hips.y > .75f * up;
+  const auto from = static_cast<std::size_t>(answer->hit_tick);
+  if (a.stays_up) {
+    a.skate =
+        foot_skate_ratio(body.skeleton, std::span(track.frames).subspan(from), kTicksPerSecond);
+  }
+  a.off = static_cast<double>(
+      std::abs(wrapped_angle(outcome.direction - yaw_of(answer->input.blow.impulse))));
+  a.in_charge = seconds(kSimulated);
+  return a;
+}
+
+std::vector<Answered> answers_of(const HitsAsked& asked, const char* purpose, float least,
+                                 float most) {
+  std::vector<Answered> all(static_cast<std::size_t>(asked.settings.count));
+  run_tasks(all.size(), asked.run.threads, [&](std::size_t i) {
+    if (asked.run.stopped()) return;
+    all[i] = answered(
+        asked.library,
+        random_query(asked.library, derived_seed(asked.settings.seed, purpose, i), least, most));
+  });
+  std::erase_if(all, [](const Answered& a) { return !a.done; });
+  return all;
+}
+
+double share(std::size_t part, std::size_t all) {
+  return all == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all);
+}
+
+// How the shown body differs from the undisturbed one after the hit.
+double onset_seconds(const MotionLibrary& library, const HitQuery& query) {
+  const auto hit = simulate_hit(library, query);
+  HitQuery none = query;
+  none.impulse = {};
+  const auto calm = simulate_hit(library, none);
+  if (!hit || !calm) return 0;
+  const Skeleton& skeleton = hit->bodies.front().skeleton;
+  const auto& a = hit->timeline.tracks.front().frames;
+  const auto& b = calm->timeline.tracks.front().frames;
+  const std::size_t j = index(joint_of(query.part));
+  for (auto t = static_cast<std::size_t>(hit->hit_tick); t < std::min(a.size(), b.size()); ++t) {
+    const Vec3 p = world_pose(skeleton, a[t]).position[j],
+               q = world_pose(skeleton, b[t]).position[j];
+    const Vec3 tip{0, .1f, 0};  // a turn shows, too
+    const Vec3 p1 = world_pose(skeleton, a[t]).rotation[j] * tip,
+               q1 = world_pose(skeleton, b[t]).rotation[j] * tip;
+    if (glm::distance(p, q) + glm::distance(p1, q1) > .001f) {
+      return seconds(static_cast<Tick>(t) - hit->hit_tick);
+    }
+  }
+  return 9;
+}
+
+void seen_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
+  rows.group("V4 what people see");
+  double latest = 0;
+  for (const Part part : {Part::head, Part::chest, Part::abdomen, Part::left_thigh}) {
+    for (const float way : {0.0f, kPi / 2, kPi}) {
+      HitQuery query;
+      query.at_s = .1;
+      query.part = part;
+      query.impulse = 20.0f * (yaw_rotation(way) * kForward);
+      latest = std::max(latest, onset_seconds(asked.library, query));
+    }
+  }
+  rows.held("onset, latest of 12 hits of 20 N s", "ms", 1000 * latest, "one frame of 60 Hz",
+            at_most(17));
+  rows.held("the clip is in charge", "ms", 150, "150 ms of doubt", at_most(150));
+  std::vector<double> off;
+  std::size_t within = 0;
+  for (const Answered& a : all) {
+    off.push_back(static_cast<double>(degrees(static_cast<float>(a.off))));
+    within += off.back() <= 30 ? 1 : 0;
+  }
+  rows.held(fmt::format("direction within 30 degrees of the impulse, {} hits", all.size()), "%",
+            share(within, all.size()), "a wrong one is accepted less", at_least(90));
+  rows.said("direction off the impulse, median", "deg", quantile(off, .5), "");
+}
+
+void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
+  const auto worst = [&](const std::string& name, auto field, auto wanted) {
+    std::vector<double> velocity, apart;
+    for (const Answered& a : all) {
+      if (!wanted(a)) continue;
+      velocity.push_back((a.*field).velocity);
+      apart.push_back((a.*field).apart);
+    }
+    if (velocity.empty()) return;
+    rows.held(fmt::format("pop {}: velocity jump, worst of {} (median {:.2f})", name,
+                          velocity.size(), quantile(velocity, .5)),
+              "m/s", quantile(velocity, 1), "real captures 2.0-2.7", at_most(1.5));
+    rows.held(fmt::format("pop {}: joint jump beyond its motion, worst", name), "m",
+              quantile(apart, 1), "", at_most(.025));
+  };
+  worst("simulation to clip", &Answered::into_clip, [](const Answered& a) { return a.stays_up; });
+  worst("fall to get-up", &Answered::into_get_up,
+        [](const Answered& a) { return a.falls && !a.knocked_out; });
+  worst("answer to guard", &Answered::back_to_guard, [](const Answered&) { return true; });
+}
+
+void failure_rows(const std::vector<Answered>& all, HitRows& rows) {
+  rows.group("V7 what game makers report wrong");
+  std::vector<double> skate;
+  std::size_t once = 0, falls = 0, up = 0;
+  for (const Answered& a : all) {
+    if (a.stays_up) skate.push_back(a.skate);
+    once += a.answers == 1 ? 1 : 0;
+    falls += a.falls && !a.knocked_out ? 1 : 0;
+    up += a.falls && !a.knocked_out && a.got_up ? 1 : 0;
+  }
+  rows.held(fmt::format("feet slide under a body that stays up, worst of {}", skate.size()), "",
+            quantile(skate, 1), "0.000-0.005 real boxing", at_most(.02));
+  rows.held("hits with exactly one answer", "%", share(once, all.size()), "", at_least(100));
+  if (falls > 0) {
+    rows.held(fmt::format("{} falls: stands after one get-up", falls), "%", share(up, falls), "",
+              at_least(100));
+  }
+  seam_rows(all, rows);
+
+  const BodyModel body = make_body({});
+  const std::array<Pose, 3> stances{square_stance(body), fighting_stance(body),
+                                    mirrored(fighting_stance(body))};
+  int tapped = 0, taps = 0, toppled = 0, sweeps = 0;
+  for (const Pose& pose : stances) {
+    for (std::size_t part = 0; part < kPartCount; ++part) {
+      for (int d = 0; d < 8; ++d) {
+        const float way = static_cast<float>(d) * kPi / 4;
+        tapped +=
+            severity(impulse_step(body, StillHit(body, pose, part_at(part), way, 5).input)) > 0 ? 1
+                                                                                                : 0;
+        ++taps;
+      }
+    }
+  }
+  rows.held(fmt::format("taps of 5 N s that are not absorbed, of {}", taps), "",
+            static_cast<double>(tapped), "", at_most(0));
+  // The leg that carries, swept from under the body: across, with the other foot in the air.
+  for (const float way : {kPi / 2, -kPi / 2, kPi, 0.0f}) {
+    StillHit hit(body, fighting_stance(body), Part::left_shin, way, 72);
+    const ImpactOutcome outcome = impulse_step(body, hit.input);
+    rows.said(fmt::format("72 N s on the lead shin of the fighting stance at {:.0f} deg: response "
+                          "(0 absorb, 4 falls)",
+                          degrees(way)),
+              "", severity(outcome), "topples");
+    hit.input.contacts = {true, false};
+    toppled += severity(impulse_step(body, hit.input)) == 4 ? 1 : 0;
+    ++sweeps;
+  }
+  rows.held(fmt::format("sweeps of the only standing leg that topple, of {}", sweeps), "",
+            static_cast<double>(toppled), "", at_least(sweeps));
+}
+
+}  // namespace
+
+void answer_rows(const HitsAsked& asked, HitRows& rows) {
+  const std::vector<Answered> all = answers_of(asked, "answers", 10, 150);
+  seen_rows(asked, all, rows);
+  failure_rows(all, rows);
+  asked.run.say("answers looked at");
+}
+
+}  // namespace ringcraft
