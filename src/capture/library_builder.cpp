@@ -106,10 +106,58 @@ std::string clip_suffix(const std::string& clip) {
   return clip.empty() ? "" : " " + clip;
 }
 
+struct CaptureEntry {
+  const Document& manifest;
+  const std::string& pointer;
+  const Json& entry;
+  std::string source;  // the file and its clip, for the actions' source
+};
+
+// The listed actions, then those found where none is listed.
+Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentation& found,
+                      Collector& out) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::string file = of.manifest.path.string();
+  const float yaw =
+      of.entry.contains("guard_yaw_degrees") || found.segments.empty()
+          ? radians(static_cast<float>(number_of(of.entry, "guard_yaw_degrees", kGuardYaw)))
+          : found.guard_yaw;
+  const CaptureTracks tracks =
+      tracks_of(clip, number_of(of.entry, "guard_at", found.guard_at), yaw);
+  std::vector<ActionCut> listed;
+  for (const Json& action : of.entry.value("action", Json::array()))
+    listed.push_back(cut_from(action));
+  const auto cut_out = [&](const ActionCut& cut, const std::string& place) {
+    auto action = cut_action(skeleton, clip, tracks, cut, file, place);
+    if (action) action->source = fmt::format("{} {:.2f}-{:.2f} s", of.source, cut.begin, cut.end);
+    return action;
+  };
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    const std::string place = of.manifest.place(fmt::format("{}/action/{}/name", of.pointer, i));
+    auto action = cut_out(listed[i], place);
+    if (!action) return tl::unexpected(action.error());
+    if (auto ok = out.add(std::move(*action), file, place); !ok) return ok;
+  }
+  for (const FoundAction& segment : not_listed(found.segments, listed)) {
+    auto action = cut_out(segment.cut, of.manifest.place(of.pointer + "/segment"));
+    const bool fits = action && faults(action->clip).empty() && !out.names.contains(action->name);
+    out.note(fmt::format("{}: {} {:.2f}-{:.2f} s{}: {}", of.source, segment.cut.name,
+                         segment.cut.begin, segment.cut.end, fits ? "" : " passed over",
+                         action ? segment.evidence : to_string(action.error())));
+    if (!fits) continue;
+    if (auto ok = out.add(std::move(*action), file, ""); !ok) return ok;
+  }
+  return {};
+}
+
 Result<void> add_capture(const Document& manifest, std::size_t number, const Json& entry,
                          Collector& out) {
   const std::string pointer = fmt::format("/capture/{}", number);
   const std::filesystem::path path = manifest.path.parent_path() / text_of(entry, "path");
+  if (!flag_of(entry, "segment") && !(entry.contains("guard_at") && entry.contains("action")))
+    return input_error(manifest.path.string(), manifest.place(pointer),
+                       "a capture needs guard_at and its actions",
+                       "list them, or set segment = true to have them found");
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     if (flag_of(entry, "optional")) {
@@ -136,19 +184,18 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
   auto clip = retarget(*raw, *profile, skeleton);
   if (!clip) return tl::unexpected(clip.error());
   if (flag_of(entry, "mirror")) *clip = mirrored(*clip);
-  const auto yaw = static_cast<float>(number_of(entry, "guard_yaw_degrees", kGuardYaw));
-  const CaptureTracks tracks = tracks_of(*clip, number_of(entry, "guard_at"), radians(yaw));
-  for (std::size_t i = 0; i < entry["action"].size(); ++i) {
-    const std::string place = manifest.place(fmt::format("{}/action/{}/name", pointer, i));
-    auto action = cut_action(skeleton, *clip, tracks, cut_from(entry["action"][i]),
-                             manifest.path.string(), place);
-    if (!action) return tl::unexpected(action.error());
-    action->source =
-        fmt::format("{} {:.2f}-{:.2f} s", path.filename().string() + clip_suffix(source.clip),
-                    number_of(entry["action"][i], "begin"), number_of(entry["action"][i], "end"));
-    if (auto ok = out.add(std::move(*action), manifest.path.string(), place); !ok) return ok;
+  Segmentation found;
+  if (flag_of(entry, "segment")) {
+    const std::string name = path.stem().string();
+    found = segment(skeleton, *clip, name);
+    if (found.southpaw && !entry.contains("mirror")) {
+      out.note(path.string() + ": southpaw, mirrored");
+      *clip = mirrored(*clip);
+      found = segment(skeleton, *clip, name);
+    }
   }
-  return {};
+  return add_cuts({manifest, pointer, entry, path.filename().string() + clip_suffix(source.clip)},
+                  *clip, found, out);
 }
 
 // Files that a pattern names, sorted; * in the file name stands for any part of it.

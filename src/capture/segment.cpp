@@ -146,6 +146,18 @@ Segmentation segment(const Skeleton& skeleton, const Clip& capture, const std::s
   return out;
 }
 
+std::vector<FoundAction> not_listed(std::vector<FoundAction> found,
+                                    const std::vector<ActionCut>& listed) {
+  std::erase_if(found, [&](const FoundAction& action) {
+    return std::any_of(listed.begin(), listed.end(), [&](const ActionCut& cut) {
+      const double shared =
+          std::min(action.cut.end, cut.end) - std::max(action.cut.begin, cut.begin);
+      return shared > 0.5 * std::min(action.cut.end - action.cut.begin, cut.end - cut.begin);
+    });
+  });
+  return found;
+}
+
 Segmentation segment(const Skeleton& skeleton, const Clip& capture, const std::string& name) {
   return segment(skeleton, capture, name, SegmentSettings{});
 }

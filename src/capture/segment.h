@@ -43,6 +43,10 @@ struct Segmentation {
 // begins the names of its actions.
 Segmentation segment(const Skeleton& skeleton, const Clip& capture, const std::string& name);
 
+// The found actions but those in whose time one of `listed` lies (half of the shorter of the two).
+std::vector<FoundAction> not_listed(std::vector<FoundAction> found,
+                                    const std::vector<ActionCut>& listed);
+
 struct FolderSettings {
   bool mirrored = true;  // every action also as the other side would do it
 };

@@ -3,9 +3,11 @@
 
 #include "capture/segment.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture/library_builder.h"
 #include "capture/segment_truth.h"
 #include "capture/sheet.h"
 
@@ -112,6 +114,125 @@ TEST(Segmentation, TheMirroredCaptureGivesTheMirroredBlows) {
     EXPECT_NEAR(a.blows[i].strike.at, b.blows[i].strike.at, 0.02);
   }
   EXPECT_NE(a.southpaw, b.southpaw);
+}
+
+TEST(Segmentation, AListedCutTakesThePlaceOfWhatIsFoundInItsTime) {
+  const auto at = [](const char* name, double begin, double end) {
+    FoundAction action;
+    action.cut.name = name;
+    action.cut.begin = begin;
+    action.cut.end = end;
+    return action;
+  };
+  const std::vector<FoundAction> found = {at("before", 0, 1), at("same", 1.1, 1.9),
+                                          at("longer", 0.5, 3), at("touches", 1.9, 2.9)};
+  std::vector<std::string> kept;
+  for (const FoundAction& action : not_listed(found, {at("listed", 1, 2).cut}))
+    kept.push_back(action.cut.name);
+  EXPECT_THAT(kept, ::testing::ElementsAre("before", "touches"));
+}
+
+TEST(Segmentation, AManifestFindsActionsAndListedOnesOverrideThem) {
+  SKIP_WITHOUT_CAPTURES();
+  const std::filesystem::path capture = mocap_folder() / "debian/Boxing_Toes.bvh";
+  const std::filesystem::path manifest =
+      std::filesystem::path(::testing::TempDir()) / "segment_manifest.toml";
+  ASSERT_TRUE(write_file(manifest, "name = \"found\"\n[[capture]]\npath = \"" + capture.string() +
+                                       "\"\nsegment = true\n[[capture.action]]\nname = "
+                                       "\"my_cross\"\nkind = \"attack\"\nbegin = 8.82\nend = "
+                                       "9.74\nstrike = [{kind = \"straight\", joint = "
+                                       "\"rightHand\", zone = \"head\", at = 9.19}]\n"));
+  std::vector<std::string> notes;
+  const auto actions = collect_actions(manifest, &notes);
+  ASSERT_TRUE(actions) << to_string(actions.error());
+  const auto crosses = [&](double at) {
+    return std::count_if(actions->begin(), actions->end(), [&](const Action& action) {
+      const bool mine = action.name == "my_cross";
+      return mine ||
+             (action.source.find("Boxing_Toes") != std::string::npos &&
+              action.strikes.size() == 1 && action.name.find("cross_right") != std::string::npos &&
+              action.source.find(fmt::format(" {:.0f}.", at)) != std::string::npos);
+    });
+  };
+  EXPECT_EQ(crosses(9), 1);  // mine, and none that was found there
+  EXPECT_GT(actions->size(), 20u);
+  EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("southpaw, mirrored")));
+}
+
+TEST(Segmentation, AFolderGivesOrthodoxActionsWithDistinctNamesAndSaysWhatItPassedOver) {
+  SKIP_WITHOUT_CAPTURES();
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "segment_folder";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "deeper");
+  const auto copy = [&](const char* from, const char* to) {
+    std::filesystem::copy_file(mocap_folder() / from, folder / to);
+  };
+  copy("debian/Boxing_Toes.bvh", "Boxing_Toes.bvh");
+  copy("debian/Boxing_Toes.bvh", "the same.bvh");
+  copy("mass/mass_kick.bvh", "deeper/mass_kick.bvh");
+  ASSERT_TRUE(write_file(folder / "broken.bvh", "HIERARCHY\nROOT"));
+  std::vector<std::string> notes;
+  const auto actions = collect_folder_actions(folder, &notes);
+  ASSERT_TRUE(actions) << to_string(actions.error());
+  std::vector<std::string> names;
+  for (const Action& action : *actions) {
+    names.push_back(action.name);
+    EXPECT_TRUE(faults(action.clip).empty()) << action.name;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  EXPECT_THAT(names, ::testing::Contains("boxing_toes_hook_left_1"));
+  EXPECT_THAT(names, ::testing::Contains("boxing_toes_hook_right_1"));  // mirrored
+  EXPECT_THAT(names, ::testing::Contains("mass_kick_roundhouse_right_1"));
+  EXPECT_THAT(notes, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("passed over"),
+                                                          ::testing::HasSubstr("broken.bvh"))));
+  EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("the same motion as")));
+  EXPECT_FALSE(collect_folder_actions(folder / "nowhere", nullptr));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Segmentation, AnythingShortOrStillIsNoAction) {
+  const Skeleton skeleton = canonical_skeleton();
+  Clip still;
+  for (int i = 0; i < 8; ++i) {
+    still.frames.push_back(rest_pose(skeleton));
+    still.root.emplace_back();
+    still.contacts.push_back({true, true});
+  }
+  EXPECT_TRUE(segment(skeleton, still, "short").segments.empty());
+  while (still.frames.size() < 400) {
+    still.frames.push_back(rest_pose(skeleton));
+    still.root.emplace_back();
+    still.contacts.push_back({true, true});
+  }
+  EXPECT_TRUE(segment(skeleton, still, "still").blows.empty());
+}
+
+// The sheets' punches and kicks are authored: their strikes are known without an eye.
+TEST(Segmentation, FindsTheStrikesOfTheTechniqueSheets) {
+  const Skeleton skeleton = canonical_skeleton();
+  int wanted = 0, found = 0;
+  std::string missed;
+  for (const char* sheet : {"punches.toml", "kicks.toml"}) {
+    const auto actions = compile_sheet_file(assets_folder() / "kickboxing/sheets" / sheet);
+    ASSERT_TRUE(actions) << to_string(actions.error());
+    for (const Action& action : *actions) {
+      const Segmentation result = segment(skeleton, action.clip, action.name);
+      for (const Strike& strike : action.strikes) {
+        ++wanted;
+        const bool hit =
+            std::any_of(result.blows.begin(), result.blows.end(), [&](const FoundBlow& blow) {
+              return blow.strike.joint == strike.joint &&
+                     ticks(blow.strike.at) >= strike.active_begin - 12 &&
+                     ticks(blow.strike.at) <= strike.active_end + 12;
+            });
+        found += hit ? 1 : 0;
+        if (!hit) missed += action.name + " ";
+      }
+    }
+  }
+  EXPECT_GE(found, wanted * 3 / 4) << "missed of " << wanted << ": " << missed;
 }
 
 }  // namespace
