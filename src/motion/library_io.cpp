@@ -263,7 +263,7 @@ class LibraryReader {
 
  private:
   static bool launchable(const Action& action) {
-    return action.kind != Kind::response && action.kind != Kind::get_up;
+    return action.kind != Kind::response && action.kind != Kind::get_up && !action.connects;
   }
   bool known(ActionId id) const { return id.valid() && id.at() < parts_.actions.size(); }
   bool inside(std::int32_t clip, Tick tick) const {

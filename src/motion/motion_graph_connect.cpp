@@ -14,6 +14,8 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kFar = std::numeric_limits<Tick>::max() / 4;
+constexpr int kRounds = 10;
+constexpr std::size_t kTriesAtOnce = 240;
 constexpr std::size_t kAtOnce = 24;             // ways made before paths are looked at again
 constexpr Tick kRootEases = 24;                 // ticks in which the root track makes good a seam
 constexpr Tick kNoPath = 10 * kTicksPerSecond;  // what an action that cannot be reached counts for
@@ -179,6 +181,13 @@ Tick gain_of(const Way& way, const StateMachine& machine) {
   return (path == nullptr ? kNoPath : path->ticks) - way.ticks;
 }
 
+// Whether the state machine will have edges on both sides of it.
+bool fits(const Skeleton& skeleton, const Action& from, const Action& way, const Action& to,
+          float threshold) {
+  return faults(way.clip).empty() && aligned(skeleton, from.clip, way.clip).distance <= threshold &&
+         aligned(skeleton, way.clip, to.clip).distance <= threshold;
+}
+
 }  // namespace
 
 Clip stitched(const Skeleton& skeleton, const std::vector<GraphSource>& sources,
@@ -227,34 +236,36 @@ std::vector<Action> connecting_actions(const Skeleton& skeleton, const std::vect
   std::vector<Action> all = actions;
   std::vector<Action> connecting;
   std::set<std::pair<ActionId, ActionId>> tried;
-  while (connecting.size() < settings.most) {
+  for (int round = 0; round < kRounds && connecting.size() < settings.most; ++round) {
     const StateMachine machine(skeleton, all, machine_settings);
     std::vector<std::pair<Tick, const Way*>> open;
     for (const Way& way : ways) {
       const Tick gain = gain_of(way, machine);
-      if (gain >= settings.gain && !tried.contains({way.from, way.to}))
+      if (gain >= settings.gain && !tried.contains({way.from, way.to})) {
         open.emplace_back(gain, &way);
+      }
     }
     std::stable_sort(open.begin(), open.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
+    const std::size_t before = connecting.size();
+    std::size_t tries = 0;
     std::set<ActionId> from, to;  // each once, then the paths are looked at again
     for (const auto& [gain, way] : open) {
-      if (connecting.size() >= settings.most || from.size() >= kAtOnce) break;
+      if (connecting.size() >= std::min(settings.most, before + kAtOnce)) break;
       if (from.contains(way->from) || to.contains(way->to)) continue;
-      from.insert(way->from);
-      to.insert(way->to);
+      if (++tries > kTriesAtOnce) break;
       tried.insert({way->from, way->to});
       Action action = made(skeleton, actions, sources, *way);
-      const bool fits = faults(action.clip).empty() &&
-                        aligned(skeleton, actions[way->from.at()].clip, action.clip).distance <=
-                            machine_settings.threshold &&
-                        aligned(skeleton, action.clip, actions[way->to.at()].clip).distance <=
-                            machine_settings.threshold;
-      if (!fits) continue;
+      if (!fits(skeleton, actions[way->from.at()], action, actions[way->to.at()],
+                machine_settings.threshold)) {
+        continue;
+      }
+      from.insert(way->from);
+      to.insert(way->to);
       all.push_back(action);
       connecting.push_back(std::move(action));
     }
-    if (from.empty()) break;
+    if (connecting.size() == before) break;
   }
   return connecting;
 }

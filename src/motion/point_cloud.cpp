@@ -80,13 +80,14 @@ Alignment align(std::span<const Vec3> first, std::span<const Vec3> second,
   }
   Alignment result;
   result.placement.yaw = static_cast<float>(std::atan2(sine, cosine));
-  const Vec3 turned =
-      yaw_rotation(result.placement.yaw) * Vec3(static_cast<float>(x2), 0, static_cast<float>(z2));
+  const Quat turn = yaw_rotation(result.placement.yaw);
+  const Vec3 turned = turn * Vec3(static_cast<float>(x2), 0, static_cast<float>(z2));
   result.placement.x = static_cast<float>(x1) - turned.x;
   result.placement.z = static_cast<float>(z1) - turned.z;
+  const Vec3 moved = result.placement.position();
   double squares = 0;
   for (std::size_t i = 0; i < weight.size(); ++i) {
-    squares += weight[i] * glm::distance2(first[i], result.placement * second[i]);
+    squares += weight[i] * glm::distance2(first[i], turn * second[i] + moved);
   }
   result.distance = static_cast<float>(std::sqrt(squares / weights));
   return result;

@@ -132,6 +132,14 @@ std::vector<int> connecting_components(const std::vector<Action>& actions, const
   return component;
 }
 
+bool reaches(const std::vector<Edge>& edges, const std::vector<int>& component, int core) {
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](const Edge& edge) { return component[edge.to.at()] == core; });
+}
+void mark(const std::vector<Edge>& edges, std::vector<bool>& marked) {
+  for (const Edge& edge : edges) marked[edge.to.at()] = true;
+}
+
 // The largest set of launchable actions in which every action has a path to every other and to
 // itself over members of the set. Paths lead over transitions and idles only, so the set is one of
 // their strongly connected components and all that has an edge both from it and into it.
@@ -140,16 +148,27 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
   const int count = actions.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
   std::vector<bool> best(actions.size());
   for (int core = 0; core < count; ++core) {
-    std::vector<bool> into(actions.size()), out_of(actions.size()), kept(actions.size());
+    // An action that only connects leads into the core without being of it: nothing else need come
+    // to it than the one action that it was made for.
+    std::vector<bool> leads(actions.size()), led_to(actions.size());
     for (std::size_t i = 0; i < actions.size(); ++i) {
-      for (const Edge& edge : edges[i]) {
-        if (component[edge.to.at()] == core) into[i] = true;
-        if (component[i] == core) out_of[edge.to.at()] = true;
-      }
+      leads[i] =
+          component[i] == core || (actions[i].connects && reaches(edges[i], component, core));
     }
     for (std::size_t i = 0; i < actions.size(); ++i) {
-      kept[i] = launchable(actions[i]) && into[i] && out_of[i] &&
+      if (component[i] == core) mark(edges[i], led_to);
+    }
+    std::vector<bool> out_of = led_to;
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      if (actions[i].connects && leads[i] && led_to[i]) mark(edges[i], out_of);
+    }
+    std::vector<bool> kept(actions.size());
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+      const bool into = std::any_of(edges[i].begin(), edges[i].end(),
+                                    [&](const Edge& edge) { return leads[edge.to.at()]; });
+      kept[i] = launchable(actions[i]) && into && out_of[i] &&
                 (!connects(actions[i]) || component[i] == core);
+      if (actions[i].connects && leads[i]) kept[i] = true;
     }
     if (std::count(kept.begin(), kept.end(), true) > std::count(best.begin(), best.end(), true)) {
       best = std::move(kept);
