@@ -15,7 +15,7 @@ namespace {
 
 constexpr Tick kFar = std::numeric_limits<Tick>::max() / 4;
 constexpr int kRounds = 10;
-constexpr std::size_t kTriesAtOnce = 240;
+constexpr std::size_t kTriesAtOnce = 600;
 constexpr std::size_t kAtOnce = 24;             // ways made before paths are looked at again
 constexpr Tick kRootEases = 24;                 // ticks in which the root track makes good a seam
 constexpr Tick kNoPath = 10 * kTicksPerSecond;  // what an action that cannot be reached counts for

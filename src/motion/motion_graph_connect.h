@@ -16,7 +16,7 @@
 namespace ringcraft {
 
 struct ConnectSettings {
-  Tick shortest = 24;      // ticks played at least between two transitions
+  Tick shortest = 18;      // ticks played at least between two transitions
   Tick longest = 144;      // ticks of a whole way
   Tick seam = 12;          // ticks that a transition more has to save
   Tick gain = 24;          // ticks by which a way must be shorter than the present path

@@ -158,6 +158,9 @@ const NextAction* ActionTable::find_next(ActionId to) const {
   for (const NextAction& one : next) {
     if (one.to == to) return &one;
   }
+  for (const NextAction& one : over) {
+    if (one.to == to) return &one;
+  }
   return nullptr;
 }
 
@@ -171,6 +174,10 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     }
     for (const ActionId to : library.launchable()) {
       if (auto next = next_action(ActionId(i), to)) table.next.push_back(std::move(*next));
+    }
+    for (const Edge& edge : library.machine().edges(ActionId(i))) {
+      if (!library.action(edge.to).connects) continue;
+      table.over.push_back(*next_action(ActionId(i), edge.to));
     }
   }
 }

@@ -73,6 +73,7 @@ struct ActionTable {
   Frame end;                     // root[length]
   ActionId get_up;               // of a fall: what follows it; invalid for anything else
   std::vector<NextAction> next;  // what a fighter may choose after it, by index
+  std::vector<NextAction> over;  // what follows it only on the way to something else
 
   Tick clamped(Tick age) const { return age < 0 ? 0 : age > length ? length : age; }
   const BodyCapsules& capsules_at(Tick age) const { return capsules[at(age)]; }
