@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/sheet_motion.h"
+#include "motion/aim.h"
 
 namespace ringcraft {
 
@@ -14,9 +15,12 @@ namespace {
 constexpr float kStraightestLeg = 0.985f;  // of its length, of a leg that stands
 constexpr float kEndTolerance = 0.012f;    // fraction of height: foot against the end guard
 constexpr float kPelvisSigma = 2.5f, kTrunkSigma = 2.0f;    // ticks
-constexpr float kFreeFootSigma = 2.0f, kAnkleSigma = 4.0f;  // ticks
+constexpr float kFreeFootSigma = 2.3f, kAnkleSigma = 4.0f;  // ticks
 constexpr float kStrikeSigma = 1.2f, kHandSigma = 2.0f;     // ticks
-constexpr int kSinkTicks = 6;  // over which the pelvis sinks to keep the feet in reach
+constexpr int kAimRounds = 4;       // after which a blow meets what it aims at, or never will
+constexpr float kAimed = 0.003f;    // m
+constexpr float kAimFades = 0.20f;  // s after the contact in which the aim's shift is let go
+constexpr int kSinkTicks = 6;       // over which the pelvis sinks to keep the feet in reach
 
 Error fault(const Document& document, const std::string& pointer, std::string what,
             std::string remedy) {
@@ -24,15 +28,21 @@ Error fault(const Document& document, const std::string& pointer, std::string wh
           std::move(remedy)};
 }
 
+const Skeleton& body() {
+  static const Skeleton skeleton = canonical_skeleton();
+  return skeleton;
+}
+
+Channel led_channel(Joint striker) {
+  return of_side(is_foot(striker) ? Channel::lead_ankle : Channel::lead_wrist, side_of(striker));
+}
+
 // Strikes need a key of their limb at start and contact: the profile runs between the two.
 std::optional<Error> check_strikes(const Document& document, const SheetAction& action,
                                    const std::vector<SheetKey>& keys) {
   for (std::size_t i = 0; i < action.strikes.size(); ++i) {
     const SheetStrike& s = action.strikes[i];
-    const bool left = s.strike.joint == Joint::left_hand || s.strike.joint == Joint::left_foot;
-    const bool foot = s.strike.joint == Joint::left_foot || s.strike.joint == Joint::right_foot;
-    const Channel channel =
-        of_side(foot ? Channel::lead_ankle : Channel::lead_wrist, left ? Side::left : Side::right);
+    const Channel channel = led_channel(s.strike.joint);
     for (const float t : {s.start, s.contact}) {
       const bool found = std::any_of(keys.begin(), keys.end(), [&](const SheetKey& key) {
         return std::abs(key.t - t) < 2e-3f && key.values[index(channel)];
@@ -144,8 +154,8 @@ void keep_in_reach(const Skeleton& skeleton, std::vector<BodyTargets>& targets) 
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i].pelvis.y -= sink[i];
 }
 
-Result<Action> compile(const Document& document, const SheetAction& sheet) {
-  static const Skeleton skeleton = canonical_skeleton();
+Result<Action> compile_once(const Document& document, const SheetAction& sheet) {
+  const Skeleton& skeleton = body();
   const std::vector<SheetKey> keys = merged_keys(sheet);
   if (auto error = check_strikes(document, sheet, keys)) return tl::unexpected(*error);
 
@@ -194,6 +204,54 @@ Result<Action> compile(const Document& document, const SheetAction& sheet) {
               "look for keys far outside the body's reach"));
   }
   return action;
+}
+
+// How far the strike passes from its aim sideways and in height at its contact, m, in the root's
+// frame of that moment. The opponent stands in the guard that the action starts from.
+Vec3 aim_error(const SheetStrike& strike, const Action& action) {
+  const AimPoint& point = *aim_point(strike.strike.aim);
+  const Vec3 own =
+      position_of(point, world_pose(body(), action.clip.frames.front()), kCanonicalHeight);
+  const Tick contact = ticks(strike.contact);
+  const Vec3 tip =
+      striking_point(strike.strike, body(), world_pose(body(), action.clip.at(contact)));
+  const Vec3 error(-own.x - tip.x, own.y - tip.y, 0);
+  return yaw_rotation(-action.clip.root_at(contact).yaw) * error;
+}
+
+// Moves the keys of the striking limb: fully at the contact, less before and after it; elbow or
+// knee half as far.
+void shift_strike(const SheetStrike& strike, Vec3 shift, std::vector<SheetKey>& keys) {
+  const bool foot = is_foot(strike.strike.joint);
+  const Side side = side_of(strike.strike.joint);
+  const Channel bend = of_side(foot ? Channel::lead_knee : Channel::lead_elbow, side);
+  for (SheetKey& key : keys) {
+    if (key.t < strike.start + 1e-3f) continue;
+    const float u = (key.t - strike.start) / (strike.contact - strike.start);
+    const float share = u <= 1 ? u * u : 1 - (key.t - strike.contact) / kAimFades;
+    if (share <= 0) continue;
+    const Vec3 way = shift * (share / kCanonicalHeight);
+    auto& end = key.values[index(led_channel(strike.strike.joint))];
+    auto& middle = key.values[index(bend)];
+    if (end) *end += way;
+    if (middle) *middle += way * 0.5f;
+  }
+}
+
+Result<Action> compile(const Document& document, const SheetAction& sheet) {
+  SheetAction aimed = sheet;
+  for (int round = 0;; ++round) {
+    auto action = compile_once(document, aimed);
+    if (!action) return action;
+    float worst = 0;
+    for (const SheetStrike& strike : aimed.strikes) {
+      if (strike.strike.aim.empty()) continue;
+      const Vec3 error = aim_error(strike, *action);
+      worst = std::max(worst, glm::length(error));
+      shift_strike(strike, error, aimed.keys);
+    }
+    if (worst < kAimed || round == kAimRounds) return action;
+  }
 }
 
 Result<std::vector<Action>> compile_all(const Document& document) {

@@ -37,7 +37,7 @@ Vec2 pair_of(const json& value) {
   return {number(value[0]), number(value[1])};
 }
 
-Side side_of(const json& foot) {
+Side foot_named(const json& foot) {
   return foot == "lead" ? Side::left : Side::right;
 }
 
@@ -182,7 +182,7 @@ class Reader {
       const Vec3 at = vector_of(table["end_at"]);
       result.end_at = {at.x * kCanonicalHeight, at.y * kCanonicalHeight, radians(at.z)};
     }
-    if (table.contains("pivot")) result.pivot = side_of(table["pivot"]);
+    if (table.contains("pivot")) result.pivot = foot_named(table["pivot"]);
     result.chain = table.value("chain", 0.0f);
     result.sway = table.value("sway", 0.007f);
     result.bounce_hz = 2.2f;
@@ -220,7 +220,7 @@ class Reader {
     for (std::size_t i = 0; i < table["step"].size(); ++i) {
       const json& step = table["step"][i];
       SheetStep read;
-      read.foot = side_of(step["foot"]);
+      read.foot = foot_named(step["foot"]);
       read.lift = number(step["lift"]);
       if (step.contains("land")) read.land = number(step["land"]);
       if (step.contains("at")) read.at = vector_of(step["at"]);
@@ -249,6 +249,12 @@ class Reader {
       read.strike.kind = strike_kind_from_name(spelled(strike["kind"])).value();
       read.strike.joint = joint_from_vrm_name(spelled(strike["joint"])).value();
       read.strike.zone = zone_from_name(spelled(strike["zone"])).value();
+      read.strike.aim = strike.value("aim", std::string());
+      if (strike.contains("reach")) {
+        const Vec2 reach = pair_of(strike["reach"]) * kCanonicalHeight;
+        read.strike.nearest = reach.x;
+        read.strike.farthest = reach.y;
+      }
       read.start = number(strike["start"]);
       read.contact = number(strike["contact"]);
       if (read.contact < read.start + 0.04f || read.contact > result.length) {
@@ -268,15 +274,14 @@ class Reader {
       }
       for (const SheetStrike& other : result.strikes) {
         const bool apart = read.start >= other.contact || read.contact <= other.start;
-        if (other.strike.joint == read.strike.joint && !apart) {
+        if (led_joint(other.strike.joint) == led_joint(read.strike.joint) && !apart) {
           return fault(at, "the same limb strikes twice at a time",
                        "let the second strike start after the first one's contact");
         }
       }
       const bool straight = read.strike.kind == StrikeKind::straight;
-      const bool foot =
-          read.strike.joint == Joint::left_foot || read.strike.joint == Joint::right_foot;
-      const bool lead = read.strike.joint == Joint::left_hand;
+      const bool foot = is_foot(read.strike.joint);
+      const bool lead = side_of(read.strike.joint) == Side::left;
       if (foot && !in_the_air(result, read)) {
         return fault(at, "the foot stands on the ground while it should strike",
                      "add a step of this foot with free = true that lasts from start to contact");
@@ -291,7 +296,7 @@ class Reader {
   }
 
   static bool in_the_air(const SheetAction& action, const SheetStrike& strike) {
-    const Side side = strike.strike.joint == Joint::left_foot ? Side::left : Side::right;
+    const Side side = side_of(strike.strike.joint);
     return std::any_of(action.steps.begin(), action.steps.end(), [&](const SheetStep& step) {
       return step.foot == side && step.free && step.lift <= strike.start &&
              step.land.value_or(action.length + 1) > strike.contact;

@@ -55,6 +55,18 @@ const std::vector<float>* speed_profile(std::string_view name) {
   // Chamber to contact of snap and swing kicks: peak 0.07 s before contact of 0.13-0.21 s.
   static const std::vector<float> kKick = {.30f, .38f, .50f, .64f, .79f, .92f,
                                            1.0f, .98f, .88f, .68f, .45f};
+  // Blows that go through what they meet: fastest just before it, hardly slower in it. A captured
+  // hook is fastest where it crosses the middle; a tornado kick 0.01 s before its contact.
+  static const std::vector<float> kSwing = {.15f, .25f, .38f, .52f, .66f, .79f,
+                                            .90f, .98f, 1.0f, .95f, .82f};
+  static const std::vector<float> kWhip = {.25f, .31f, .40f, .52f, .66f, .80f,
+                                           .92f, .99f, 1.0f, .95f, .82f};
+  // A leg that is straightened against something: thrusts are fastest 0.08-0.15 s before the end.
+  static const std::vector<float> kThrust = {.22f, .32f, .46f, .62f, .78f, .92f,
+                                             1.0f, 1.0f, .92f, .74f, .50f};
+  if (name == "swing") return &kSwing;
+  if (name == "whip") return &kWhip;
+  if (name == "thrust") return &kThrust;
   if (name == "cross") return &kCross;
   if (name == "long_cross") return &kLongCross;
   if (name == "jab") return &kJab;

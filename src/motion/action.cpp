@@ -9,8 +9,9 @@ namespace {
 constexpr std::array<std::string_view, 7> kKinds = {
     "attack", "defense", "transition", "combination", "response", "get-up", "idle"};
 constexpr std::array<std::string_view, 3> kZones = {"head", "body", "leg"};
-constexpr std::array<std::string_view, 6> kStrikes = {"straight",   "hook",       "uppercut",
-                                                      "front_kick", "roundhouse", "side_kick"};
+constexpr std::array<std::string_view, 9> kStrikes = {"straight",   "hook",       "uppercut",
+                                                      "front_kick", "roundhouse", "side_kick",
+                                                      "backfist",   "elbow",      "knee"};
 constexpr std::array<std::string_view, 7> kDefenses = {"guard", "parry", "slip",     "duck",
                                                        "sway",  "check", "step_away"};
 constexpr std::array<std::string_view, 3> kResponses = {"absorb", "recovery_steps", "knockdown"};

@@ -20,16 +20,24 @@ enum class StrikeKind : std::uint8_t {
   uppercut,
   front_kick,
   roundhouse,
-  side_kick
+  side_kick,
+  backfist,
+  elbow,
+  knee
 };
 
 // One blow of an attack. Ticks count from the action's start.
 struct Strike {
   StrikeKind kind = StrikeKind::straight;
-  Joint joint = Joint::left_hand;  // a hand or a foot
+  Joint joint =
+      Joint::left_hand;  // a hand or a foot; of an elbow the lower arm, of a knee the lower leg
   TargetZone zone = TargetZone::head;
   Tick active_begin = 0;  // first tick at which it can hit
   Tick active_end = 0;    // first tick at which it no longer can
+  // What it was made to meet (motion/aim.h) and from where: m between the two roots at the launch.
+  // Empty where nobody said.
+  std::string aim = {};
+  float nearest = 0, farthest = 0;
 };
 
 enum class DefenseKind : std::uint8_t { guard, parry, slip, duck, sway, check, step_away };

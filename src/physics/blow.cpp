@@ -145,6 +145,12 @@ StrikeTraits traits_of(StrikeKind kind) {
       return {.75f, 1.3f, 3.5f};
     case StrikeKind::roundhouse:
       return {.5f, 2.0f, 7.0f};
+    case StrikeKind::backfist:  // a whip: the trunk is not behind it
+      return {.25f, 1.0f, 3.0f};
+    case StrikeKind::elbow:  // the trunk turns with it, nothing bends between
+      return {.75f, 2.0f, 6.0f};
+    case StrikeKind::knee:
+      return {.5f, 4.0f, 14.0f};
     case StrikeKind::front_kick:
     case StrikeKind::side_kick:
       return {.5f, 4.0f, 18.0f};

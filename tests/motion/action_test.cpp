@@ -24,7 +24,7 @@ TEST(Action, EveryNameLeadsBackToItsValue) {
   expect_names_lead_back(
       TargetZone::leg, [](TargetZone z) { return name_of(z); }, zone_from_name);
   expect_names_lead_back(
-      StrikeKind::side_kick, [](StrikeKind k) { return name_of(k); }, strike_kind_from_name);
+      StrikeKind::knee, [](StrikeKind k) { return name_of(k); }, strike_kind_from_name);
   expect_names_lead_back(
       DefenseKind::step_away, [](DefenseKind k) { return name_of(k); }, defense_kind_from_name);
   expect_names_lead_back(

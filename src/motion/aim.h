@@ -1,0 +1,27 @@
+#pragma once
+// Named targets on a body: what a blow is aimed at.
+
+#include <span>
+
+#include "motion/action.h"
+
+namespace ringcraft {
+
+struct AimPoint {
+  std::string_view name;
+  TargetZone zone = TargetZone::head;
+  Joint joint = Joint::head;
+  Vec3 offset{};  // from the joint in its own axes, fraction of standing height
+};
+
+std::span<const AimPoint> aim_points();
+const AimPoint* aim_point(std::string_view name);  // null where there is none
+
+// Where it is on a body of that height, in the space of the pose, m.
+Vec3 position_of(const AimPoint& point, const WorldPose& world, float height);
+
+// The point of the body that a strike lands with: knuckles, instep, ball of the foot, heel, elbow
+// or knee, in the space of the pose, m.
+Vec3 striking_point(const Strike& strike, const Skeleton& skeleton, const WorldPose& world);
+
+}  // namespace ringcraft
