@@ -50,7 +50,7 @@ Bout::Bout(const MotionLibrary& library, const SceneFile& scene, const FightOpti
       scene_(scene),
       options_(options),
       standing_(scene.fighters.size()),
-      stage_(library, bodies_of(scene)),
+      stage_(library, bodies_of(scene), Repetitions::varied),
       end_(scene.duration) {
   std::vector<Contender> contenders;
   for (std::size_t i = 0; i < scene.fighters.size(); ++i) {

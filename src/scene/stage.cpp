@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/random.h"
 #include "motion/ik.h"
 #include "scene/keep_out.h"
 
@@ -13,10 +14,10 @@ constexpr float kArmsReach =
     2.4f;  // m between the hips of canonical bodies: beyond it none can touch
 constexpr float kLimitTolerance = radians(2);
 
-// The pose with its joints inside their ranges; feet that are held stay where they are as far as
-// the ranges of the leg allow.
-Pose limited(const BodyModel& body, const Pose& pose, FootContacts held) {
-  Pose result = within_limits(body, pose, kLimitTolerance);
+// The pose with its joints inside their ranges, on the side on which they were a tick `earlier`;
+// feet that are held stay where they are as far as the ranges of the leg allow.
+Pose limited(const BodyModel& body, const Pose& pose, FootContacts held, const Pose& earlier) {
+  Pose result = within_limits(body, pose, kLimitTolerance, earlier);
   const WorldPose before = world_pose(body.skeleton, pose);
   for (const Side side : {Side::left, Side::right}) {
     const Limb limb = leg(side);
@@ -26,20 +27,23 @@ Pose limited(const BodyModel& body, const Pose& pose, FootContacts held) {
     const Vec3 knee_forward = after.rotation[index(limb.root)] * kForward;
     solve_limb(body.skeleton, limb, {ankle, present_pole(after, limb, knee_forward), 1.0f}, result);
   }
-  return within_limits(body, result, kLimitTolerance);
+  return within_limits(body, result, kLimitTolerance, earlier);
 }
 
 }  // namespace
 
-Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies) : library_(library) {
+Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repetitions repetitions)
+    : library_(library), repetitions_(repetitions) {
   for (BodyModel& body : bodies) {
     Playback playback(body.skeleton);
-    actors_.push_back({std::move(body), std::move(playback), {}, {}, 0, false, {}, {}, {}, {}});
+    actors_.push_back({std::move(body), std::move(playback), {}, {}, {}, 0, false, {}, {}, {}, {}});
   }
 }
 
 Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
-  return pose_at(library_, actor.launch, tick, actor.body.scale);
+  return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action),
+                            pose_at(library_, actor.launch, tick, actor.body.scale),
+                            tick - actor.launch.start, tick);
 }
 
 void Stage::begin(FighterId fighter, const Launch& launch) {
@@ -49,6 +53,11 @@ void Stage::begin(FighterId fighter, const Launch& launch) {
 void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
+  // No two launches of a fight are alike, and none depends on anything but the record.
+  if (repetitions_ == Repetitions::varied) {
+    actor.variation = Variation(derived_seed(static_cast<std::uint64_t>(launch.start), "launch",
+                                             static_cast<std::uint64_t>(fighter.at())));
+  }
   actor.simulated = std::move(simulated);
   actor.simulated_from = launch.start + 1;
   const Action& action = library_.action(launch.action);
@@ -99,7 +108,7 @@ void Stage::show(Tick tick) {
 void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
   actor.kept_out = offsets;
   actor.playback.amend(limited(actor.body, with_offsets(actor.body, actor.unhindered, offsets),
-                               actor.playback.held()));
+                               actor.playback.held(), actor.playback.shown_before()));
   actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
 }
 

@@ -5,14 +5,19 @@
 
 #include "fight/timeline.h"
 #include "motion/playback.h"
+#include "motion/variation.h"
 #include "physics/contact.h"
 #include "scene/keep_out.h"
 
 namespace ringcraft {
 
+// Whether two launches of one action are shown alike (motion/variation.h).
+enum class Repetitions : std::uint8_t { alike, varied };
+
 class Stage {
  public:
-  Stage(const MotionLibrary& library, std::vector<BodyModel> bodies);
+  Stage(const MotionLibrary& library, std::vector<BodyModel> bodies,
+        Repetitions repetitions = Repetitions::alike);
 
   std::size_t size() const { return actors_.size(); }
   const BodyModel& body(FighterId fighter) const { return actors_[fighter.at()].body; }
@@ -51,6 +56,7 @@ class Stage {
     BodyModel body;
     Playback playback;
     Launch launch;
+    Variation variation;          // of this launch
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;
@@ -64,6 +70,7 @@ class Stage {
   Pose clip_pose(const Actor& actor, Tick tick) const;
 
   const MotionLibrary& library_;
+  Repetitions repetitions_;
   std::vector<Actor> actors_;
 };
 
