@@ -2,8 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "capture/bvh.h"
 #include "capture/filmstrip.h"
 #include "capture/library_file.h"
+#include "capture/profile.h"
+#include "capture/retarget.h"
 #include "cli/commands.h"
 #include "scene/library_check.h"
 
@@ -68,17 +71,123 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
   return 0;
 }
 
+namespace {
+
+// The captured boxer that authored boxing is measured against, where it is installed: a southpaw,
+// who staggers from 16 s on.
+constexpr const char* kRealBoxer = "/usr/share/assimp/models/BVH/Boxing_Toes.bvh";
+constexpr double kRealFrom = 2.3, kRealTo = 16;  // s
+
+std::optional<Yardstick> measured_against_a_boxer(const MotionLibrary& library) {
+  if (!std::filesystem::exists(kRealBoxer)) return std::nullopt;
+  const auto raw = read_bvh(kRealBoxer);
+  const auto profile = read_profile(assets_folder() / "profiles" / "boxing_toes.toml");
+  if (!raw || !profile) return std::nullopt;
+  const auto clip = retarget(*raw, *profile, library.skeleton());
+  if (!clip) return std::nullopt;
+  return yardstick(library, mirrored(*clip), ticks(kRealFrom), ticks(kRealTo));
+}
+
+nlohmann::json json_of(const LibraryCheck& check) {
+  using nlohmann::json;
+  json actions = json::array(), strikes = json::array(), gates = json::array();
+  for (const ActionMeasures& m : check.actions) {
+    actions.push_back({{"name", m.name},
+                       {"kind", name_of(m.kind)},
+                       {"authored", m.authored},
+                       {"seconds", m.seconds},
+                       {"travel_m", m.travel_m},
+                       {"turn_rad", m.turn_rad},
+                       {"foot_skate", m.foot_skate},
+                       {"limit_violations", m.limit_violations},
+                       {"self_penetration_m", m.self_penetration_m},
+                       {"still_hands", m.still_hands},
+                       {"head_moves_m", m.head_moves_m},
+                       {"source", m.source}});
+  }
+  for (const StrikeMeasures& m : check.strikes) {
+    strikes.push_back({{"action", m.action},
+                       {"number", m.number},
+                       {"kind", name_of(m.strike.kind)},
+                       {"aim", m.strike.aim},
+                       {"impact_mps", m.impact},
+                       {"impact_aimed_mps", m.impact_aimed},
+                       {"peak_mps", m.peak_world},
+                       {"peak_to_pelvis_mps", m.peak_to_pelvis},
+                       {"start_to_contact_s", m.start_to_contact_s},
+                       {"peak_fraction", m.peak_fraction},
+                       {"push_mps2", m.push},
+                       {"brake_mps2", m.brake},
+                       {"pelvis_to_chest_s", m.pelvis_to_chest_s},
+                       {"chest_to_limb_s", m.chest_to_limb_s},
+                       {"aim_best_m", m.aim_best_m},
+                       {"aim_from_m", m.aim_from},
+                       {"aim_to_m", m.aim_to},
+                       {"aim_worst_m", m.aim_worst_m}});
+  }
+  for (const Gate& gate : check.gates) {
+    gates.push_back({{"name", gate.name},
+                     {"value", gate.value},
+                     {"least", gate.least},
+                     {"most", gate.most},
+                     {"unit", gate.unit},
+                     {"passed", gate.passed()}});
+  }
+  return {{"actions", actions}, {"strikes", strikes}, {"gates", gates}, {"faults", check.faults}};
+}
+
+void print_table(const LibraryCheck& check) {
+  fmt::print("{:<34}{:>7}{:>7}{:>7}{:>7}{:>7}{:>12}{:>7}{:>6}{:>7}{:>6}{:>6}  {}\n", "strike",
+             "impact", "aimed", "at m", "peak", "-hips", "lands m", "in s", "frac", "br/pu", "p>c",
+             "c>h", "aim cm, m");
+  for (const StrikeMeasures& m : check.strikes) {
+    const std::string lands = fmt::format("{:.2f}-{:.2f}", m.lands_from, m.lands_to);
+    const std::string aim =
+        m.aim_best_m < 0 ? "-"
+                         : fmt::format("{:.1f}/{:.1f} {:.2f}-{:.2f}", m.aim_best_m * 100,
+                                       std::max(0.0, m.aim_worst_m) * 100, m.aim_from, m.aim_to);
+    fmt::print(
+        "{:<34}{:>7.1f}{:>7.1f}{:>7.2f}{:>7.1f}{:>7.1f}{:>12}{:>7.2f}{:>6.2f}{:>7.1f}{:>6.0f}{:>6."
+        "0f}{:>8}"
+        "\n",
+        fmt::format("{}{} {}", m.action, m.number > 0 ? fmt::format("/{}", m.number + 1) : "",
+                    name_of(m.strike.kind)),
+        m.impact, m.impact_aimed, m.impact_at, m.peak_world, m.peak_to_pelvis, lands,
+        m.start_to_contact_s, m.peak_fraction, m.brake / std::max(1.0, m.push),
+        m.pelvis_to_chest_s * 1000, m.chest_to_limb_s * 1000, aim);
+  }
+  fmt::print("\n{:<44}{:>9}  {:<10}{}\n", "gate", "is", "", "asked");
+  for (const Gate& gate : check.gates) {
+    fmt::print("{:<44}{:>9.3g}  {:<10}{:g} to {:g}{}\n", gate.name, gate.value, gate.unit,
+               gate.least, gate.most, gate.passed() ? "" : "  FAILS");
+  }
+  if (check.yardstick) {
+    std::string far;
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, check.yardstick->farthest.size()); ++i) {
+      const auto& f = check.yardstick->farthest[i];
+      far += fmt::format("{}{} {:.1f} cm", i > 0 ? ", " : "", f.action, f.median * 100);
+    }
+    fmt::print("farthest from the captured boxer: {}\n99 % of the faster hand below {:.1f} m/s\n",
+               far, check.yardstick->fast_hand);
+  } else {
+    fmt::print("no captured boxer is installed (package assimp-testmodels): not compared\n");
+  }
+}
+
+}  // namespace
+
 int run_library_check(const std::string& name, const CommonOptions& options) {
   const auto library = load_library(name);
   if (!library) return fail(library.error());
-  const std::vector<std::string> found = library_faults(*library);
+  const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library));
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json(found).dump(1));
+    fmt::print("{}\n", json_of(check).dump(1));
   } else {
-    for (const std::string& fault : found) fmt::print("{}\n", fault);
-    fmt::print("{} actions, {} faults\n", library->actions().size(), found.size());
+    if (!options.quiet) print_table(check);
+    for (const std::string& fault : check.faults) fmt::print("{}\n", fault);
+    fmt::print("{} actions, {} faults\n", library->actions().size(), check.faults.size());
   }
-  return found.empty() ? 0 : 1;
+  return check.faults.empty() ? 0 : 1;
 }
 
 }  // namespace ringcraft

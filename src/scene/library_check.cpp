@@ -1,19 +1,24 @@
 #include "scene/library_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "motion/quality.h"
 #include "physics/body.h"
+#include "physics/penetration.h"
 
 namespace ringcraft {
 
 namespace {
 
 constexpr float kLimitTolerance = radians(3);
-constexpr double kMostFootSkate = 0.02;
+constexpr double kMostFootSkate = 0.01;
+constexpr double kMostSelfPenetration = 0.02;  // m
+constexpr double kMostAimError = 0.03;         // m
+constexpr float kStill = 0.15f;                // m/s
 
 double peak_speed(const Skeleton& skeleton, const Action& action) {
   double peak = 0;
@@ -29,12 +34,90 @@ double peak_speed(const Skeleton& skeleton, const Action& action) {
   return peak;
 }
 
-std::size_t frames_beyond_limits(const BodyModel& body, const Action& action) {
-  std::size_t count = 0;
+void measure_limits(const BodyModel& body, const Action& action, ActionMeasures& m) {
+  float most = 0;
   for (const Pose& pose : action.clip.frames) {
-    count += limit_violations(body, pose, kLimitTolerance).empty() ? 0u : 1u;
+    const std::vector<LimitViolation> found = limit_violations(body, pose, kLimitTolerance);
+    m.limit_violations += found.empty() ? 0u : 1u;
+    for (const LimitViolation& violation : found) {
+      if (violation.excess <= most) continue;
+      most = violation.excess;
+      m.worst_joint =
+          fmt::format("{} by {:.0f} degrees", vrm_name(violation.joint), degrees(violation.excess));
+    }
   }
-  return count;
+}
+
+// Pairs of parts that may come to lie on each other: neighbours in the body, and those that touch
+// in the rest pose.
+std::array<std::uint32_t, kPartCount> touching(const BodyModel& body) {
+  std::array<std::uint32_t, kPartCount> pairs{};
+  const auto join = [&](std::size_t a, std::size_t b) {
+    pairs[a] |= 1u << b;
+    pairs[b] |= 1u << a;
+  };
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    join(i, i);
+    const int parent = parent_of(part_at(i));
+    if (parent < 0) continue;
+    join(i, static_cast<std::size_t>(parent));
+    const int before = parent_of(part_at(static_cast<std::size_t>(parent)));
+    if (before >= 0) join(i, static_cast<std::size_t>(before));
+    for (std::size_t k = 0; k < i; ++k) {
+      if (parent_of(part_at(k)) == parent) join(i, k);
+    }
+  }
+  const BodyCapsules rest = capsules(body, world_pose(body.skeleton, rest_pose(body.skeleton)));
+  for (const Penetration& p : penetrations(rest, rest, 0)) join(index(p.a), index(p.b));
+  return pairs;
+}
+
+void measure_self_penetration(const BodyModel& body, const Action& action, ActionMeasures& m) {
+  const auto allowed = touching(body);
+  std::vector<float> depths;
+  depths.reserve(action.clip.frames.size());
+  float most = 0;
+  for (const Pose& pose : action.clip.frames) {
+    const BodyCapsules shapes = capsules(body, world_pose(body.skeleton, pose));
+    float depth = 0;
+    for (const Penetration& p : penetrations(shapes, shapes, 0)) {
+      if ((allowed[index(p.a)] >> index(p.b) & 1u) != 0) continue;
+      depth = std::max(depth, p.depth);
+      if (p.depth <= most) continue;
+      most = p.depth;
+      m.worst_pair = fmt::format("{} and {}", name_of(p.a), name_of(p.b));
+    }
+    depths.push_back(depth);
+  }
+  std::sort(depths.begin(), depths.end());
+  m.self_penetration_m = depths[depths.size() * 99 / 100];
+}
+
+double still_hands(const Skeleton& skeleton, const Action& action) {
+  std::size_t still = 0;
+  WorldPose before = world_pose(skeleton, action.clip.frames.front());
+  for (std::size_t i = 1; i < action.clip.frames.size(); ++i) {
+    const WorldPose now = world_pose(skeleton, action.clip.frames[i]);
+    for (const Joint hand : {Joint::left_hand, Joint::right_hand}) {
+      const float moved = glm::distance(now.position[index(hand)], before.position[index(hand)]);
+      still += moved * kTicksPerSecond < kStill ? 1u : 0u;
+    }
+    before = now;
+  }
+  return static_cast<double>(still) / static_cast<double>(2 * action.clip.length());
+}
+
+double head_moves(const Skeleton& skeleton, const Action& action) {
+  const auto head = [&](Tick t) {
+    const WorldPose world = world_pose(skeleton, action.clip.at(t));
+    return inverse(action.clip.root_at(t)) * world.position[index(Joint::head)];
+  };
+  const Vec3 start = head(0);
+  double most = 0;
+  for (Tick t = 0; t <= action.length(); ++t) {
+    most = std::max<double>(most, glm::distance(head(t), start));
+  }
+  return most;
 }
 
 bool has_response(const MotionLibrary& library, ResponseKind kind, int steps) {
@@ -58,13 +141,17 @@ std::vector<ActionMeasures> measure(const MotionLibrary& library) {
     ActionMeasures m;
     m.name = action.name;
     m.kind = action.kind;
+    m.authored = is_authored(action);
     m.seconds = seconds(action.length());
     m.peak_speed_mps = peak_speed(library.skeleton(), action);
     if (action.attacks()) m.strike_begin_s = seconds(action.strikes.front().active_begin);
     m.travel_m = glm::length(end.position());
     m.turn_rad = end.yaw;
     m.foot_skate = foot_skate_ratio(library.skeleton(), action.clip.frames, kTicksPerSecond);
-    m.limit_violations = frames_beyond_limits(body, action);
+    measure_limits(body, action, m);
+    measure_self_penetration(body, action, m);
+    m.still_hands = still_hands(library.skeleton(), action);
+    m.head_moves_m = head_moves(library.skeleton(), action);
     m.leads_to = library.machine().edges(ActionId(i)).size();
     m.source = action.source;
     all.push_back(std::move(m));
@@ -72,34 +159,177 @@ std::vector<ActionMeasures> measure(const MotionLibrary& library) {
   return all;
 }
 
-std::vector<std::string> library_faults(const MotionLibrary& library) {
-  std::vector<std::string> found;
+namespace {
+
+// The middle value; 0 of none.
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+bool is_hand(const Strike& strike) {
+  return strike.joint == Joint::left_hand || strike.joint == Joint::right_hand;
+}
+
+template <class Wanted, class Value>
+std::vector<double> of_authored(const LibraryCheck& check, Wanted wanted, Value value) {
+  std::vector<double> values;
+  for (const StrikeMeasures& m : check.strikes) {
+    if (m.authored && wanted(m)) values.push_back(value(m));
+  }
+  return values;
+}
+
+auto of_kind(StrikeKind kind) {
+  return [kind](const StrikeMeasures& m) { return m.strike.kind == kind; };
+}
+
+void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
   for (const Action& action : library.actions()) {
     for (const std::string& fault : faults(action.clip)) {
-      found.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
+      check.faults.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
     }
   }
-  for (const ActionMeasures& m : measure(library)) {
+  for (const ActionMeasures& m : check.actions) {
     if (m.limit_violations > 0) {
-      found.push_back(
-          fmt::format("{}: joints beyond their range in {} frames", m.name, m.limit_violations));
+      check.faults.push_back(fmt::format("{}: joints beyond their range in {} frames, {}", m.name,
+                                         m.limit_violations, m.worst_joint));
     }
     if (m.foot_skate > kMostFootSkate) {
-      found.push_back(fmt::format("{}: feet slide, ratio {:.3f}", m.name, m.foot_skate));
+      check.faults.push_back(fmt::format("{}: feet slide, ratio {:.3f}", m.name, m.foot_skate));
+    }
+    if (m.authored && m.self_penetration_m > kMostSelfPenetration) {
+      check.faults.push_back(
+          fmt::format("{}: the body is {:.3f} m inside itself", m.name, m.self_penetration_m));
     }
   }
+  for (const StrikeMeasures& m : check.strikes) {
+    if (m.authored && m.lands_to == 0) {
+      check.faults.push_back(
+          fmt::format("{}: strike {} meets its zone from nowhere", m.action, m.number + 1));
+    }
+    if (m.aim_worst_m > kMostAimError) {
+      check.faults.push_back(fmt::format("{}: strike {} passes {:.3f} m from the {}", m.action,
+                                         m.number + 1, m.aim_worst_m, m.strike.aim));
+    }
+  }
+}
+
+void add_kind_faults(const MotionLibrary& library, LibraryCheck& check) {
   if (!has_response(library, ResponseKind::absorb, 0))
-    found.emplace_back("no response that absorbs");
+    check.faults.emplace_back("no response that absorbs");
   for (int steps = 1; steps <= 3; ++steps) {
     if (!has_response(library, ResponseKind::recovery_steps, steps)) {
-      found.push_back(fmt::format("no response of {} recovery step(s)", steps));
+      check.faults.push_back(fmt::format("no response of {} recovery step(s)", steps));
     }
   }
-  if (!has_response(library, ResponseKind::knockdown, 0)) found.emplace_back("no knockdown");
-  if (library.get_ups().empty()) found.emplace_back("no get-up");
-  if (library.count(Kind::idle) == 0) found.emplace_back("no idle");
-  for (const std::string& dropped : library.dropped()) found.push_back("dropped: " + dropped);
-  return found;
+  if (!has_response(library, ResponseKind::knockdown, 0)) check.faults.emplace_back("no knockdown");
+  if (library.get_ups().empty()) check.faults.emplace_back("no get-up");
+  if (library.count(Kind::idle) == 0) check.faults.emplace_back("no idle");
+  for (const std::string& dropped : library.dropped())
+    check.faults.push_back("dropped: " + dropped);
+}
+
+// Validation table V1 and issue 4: speeds at the impact, in the world, on a body that stands.
+void add_speed_gates(LibraryCheck& check) {
+  const auto impact = [](const StrikeMeasures& m) { return m.impact; };
+  const auto start = [](const StrikeMeasures& m) { return m.start_to_contact_s; };
+  const auto straights = of_authored(check, of_kind(StrikeKind::straight), impact);
+  const auto hooks = of_authored(check, of_kind(StrikeKind::hook), impact);
+  const auto rounds = of_authored(check, of_kind(StrikeKind::roundhouse), impact);
+  const auto fronts = of_authored(check, of_kind(StrikeKind::front_kick), impact);
+  const auto extreme = [&](const std::vector<double>& values, const char* what, double least,
+                           double most) {
+    if (values.empty()) return;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    check.gates.push_back({fmt::format("{}, slowest", what), *low, least, most, "m/s"});
+    check.gates.push_back({fmt::format("{}, median", what), median(values), least, most, "m/s"});
+    check.gates.push_back({fmt::format("{}, fastest", what), *high, least, most, "m/s"});
+  };
+  extreme(straights, "straights at the fist", 7, 11);
+  if (!hooks.empty() && !straights.empty()) {
+    check.gates.push_back(
+        {"hooks over straights, medians", median(hooks) / median(straights), 1.0, 1.6, ""});
+  }
+  extreme(rounds, "roundhouse at the foot", 11, 14);
+  if (!rounds.empty() && !fronts.empty()) {
+    check.gates.push_back(
+        {"roundhouse over front kick, medians", median(rounds) / median(fronts), 1.4, 1.5, ""});
+  }
+  const auto alone = [](const StrikeMeasures& m) {
+    return m.strike.kind == StrikeKind::roundhouse && m.number == 0;
+  };
+  const auto times = of_authored(check, alone, start);
+  if (!times.empty()) {
+    const auto [low, high] = std::minmax_element(times.begin(), times.end());
+    check.gates.push_back({"roundhouse, start to contact, quickest", *low, 0.4, 0.6, "s"});
+    check.gates.push_back({"roundhouse, start to contact, slowest", *high, 0.4, 0.6, "s"});
+  }
+}
+
+// Calibration sections 3 and 6: what falls when motion is robotic.
+void add_motion_gates(LibraryCheck& check) {
+  const auto punches = [](const StrikeMeasures& m) {
+    return is_hand(m.strike) && m.strike.kind != StrikeKind::backfist;
+  };
+  const auto rear = [&](const StrikeMeasures& m) {
+    return punches(m) && m.strike.joint == Joint::right_hand;
+  };
+  const auto share = of_authored(check, punches, [](const auto& m) { return m.peak_fraction; });
+  if (!share.empty()) {
+    check.gates.push_back({"peak of the hand's time, median", median(share), 0.55, 0.75, ""});
+    const auto ratio =
+        of_authored(check, punches, [](const auto& m) { return m.brake / std::max(1.0, m.push); });
+    check.gates.push_back({"brake over push, median", median(ratio), 1.3, 3, ""});
+  }
+  const auto first = of_authored(check, rear, [](const auto& m) { return m.pelvis_to_chest_s; });
+  const auto second = of_authored(check, rear, [](const auto& m) { return m.chest_to_limb_s; });
+  if (!first.empty()) {
+    check.gates.push_back(
+        {"pelvis to chest, rear hand, median", median(first) * 1000, 30, 70, "ms"});
+    check.gates.push_back(
+        {"chest to hand, rear hand, median", median(second) * 1000, 30, 70, "ms"});
+  }
+  double still = 0, all = 0;
+  for (const ActionMeasures& m : check.actions) {
+    const bool stands = m.kind != Kind::response && m.kind != Kind::get_up;
+    if (!m.authored || !stands) continue;
+    still += m.still_hands * m.seconds;
+    all += m.seconds;
+  }
+  if (all > 0) {
+    check.gates.push_back({"wrists slower than 0.15 m/s", 100 * still / all, 0, 5, "% of time"});
+  }
+}
+
+void add_yardstick_gates(LibraryCheck& check) {
+  if (!check.yardstick) return;
+  const Yardstick& y = *check.yardstick;
+  check.gates.push_back({"authored to real, median", 100 * y.authored_median, 0, 14, "cm"});
+  check.gates.push_back({"authored to real, 90 %", 100 * y.authored_90, 0, 20, "cm"});
+  check.gates.push_back({"real strikes to authored, median", 100 * y.strikes_median, 0, 18, "cm"});
+  check.gates.push_back({"real strikes to authored, 90 %", 100 * y.strikes_90, 0, 22, "cm"});
+}
+
+}  // namespace
+
+LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick) {
+  LibraryCheck check;
+  check.actions = measure(library);
+  check.strikes = measure_strikes(library);
+  check.yardstick = std::move(yardstick);
+  add_action_faults(library, check);
+  add_kind_faults(library, check);
+  add_speed_gates(check);
+  add_motion_gates(check);
+  add_yardstick_gates(check);
+  for (const Gate& gate : check.gates) {
+    if (gate.passed()) continue;
+    check.faults.push_back(fmt::format("gate: {} is {:.3g} {}, asked {:g} to {:g}", gate.name,
+                                       gate.value, gate.unit, gate.least, gate.most));
+  }
+  return check;
 }
 
 }  // namespace ringcraft

@@ -1,10 +1,14 @@
 #pragma once
-// What a library is worth: a table of its actions, and the faults it has, by name.
+// What a library is worth: a table of its actions, the gates it must pass, and the faults it has,
+// by name.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "motion/library.h"
+#include "scene/library_check_strikes.h"
+#include "scene/library_check_yardstick.h"
 
 namespace ringcraft {
 
@@ -12,6 +16,7 @@ namespace ringcraft {
 struct ActionMeasures {
   std::string name;
   Kind kind = Kind::idle;
+  bool authored = false;
   double seconds = 0;
   double peak_speed_mps = 0;  // of the striking joint relative to the hips; 0 without a strike
   double strike_begin_s = 0;  // first tick at which it can hit
@@ -19,14 +24,36 @@ struct ActionMeasures {
   double turn_rad = 0;
   double foot_skate = 0;             // validation table V4
   std::size_t limit_violations = 0;  // frames with a joint beyond its range by more than 3 degrees
-  std::size_t leads_to = 0;          // direct edges
+  std::string worst_joint;           // the one that is farthest beyond
+  double self_penetration_m = 0;     // 99 % of its frames have less, between parts that are apart
+  std::string worst_pair;            // the parts that are deepest in each other
+  double still_hands = 0;    // share of the time of both wrists slower than 0.15 m/s in the world
+  double head_moves_m = 0;   // farthest from where it began, in the root's frame
+  std::size_t leads_to = 0;  // direct edges
   std::string source;
 };
 
 std::vector<ActionMeasures> measure(const MotionLibrary& library);
 
-// Named faults, one line each; empty for a good library: broken clips, joints beyond their range,
-// sliding feet, responses that physics may ask for and that are missing, no idle, no get-up.
-std::vector<std::string> library_faults(const MotionLibrary& library);
+// One figure and what it has to be.
+struct Gate {
+  std::string name;
+  double value = 0;
+  double least = 0, most = 0;
+  std::string unit;
+  bool passed() const { return value >= least && value <= most; }
+};
+
+struct LibraryCheck {
+  std::vector<ActionMeasures> actions;
+  std::vector<StrikeMeasures> strikes;
+  std::optional<Yardstick> yardstick;
+  std::vector<Gate> gates;
+  std::vector<std::string> faults;  // one line each; empty for a good library
+};
+
+// Without a yardstick its gates are left out. Gates of authored motion are asked of a library that
+// has authored strikes; captured ones are what they are.
+LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick);
 
 }  // namespace ringcraft

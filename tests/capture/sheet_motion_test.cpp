@@ -189,7 +189,8 @@ TEST(SheetMotion, EveryFallHasAGetUpThatStartsWhereItEnds) {
 }
 
 TEST(SheetMotion, CrossAndJabHaveTheMeasuredSpeeds) {
-  // Wrist against pelvis: cross 6.3-7.8 m/s, jab 3.5-4.7; the peak comes late in the hand's
+  // Wrist against pelvis: captured crosses 6.3-7.8 m/s, jabs 3.5-4.7. A jab whose fist lands at the
+  // published 7 m/s (V1) is faster than a shadow boxer's. The peak comes late in the hand's
   // startup.
   const StrikeFigures cross = figures("cross");
   EXPECT_GT(cross.peak, 6.3f);
@@ -200,7 +201,7 @@ TEST(SheetMotion, CrossAndJabHaveTheMeasuredSpeeds) {
   EXPECT_LT(cross.brake / cross.push, 3.0f);
   const StrikeFigures jab = figures("jab");
   EXPECT_GT(jab.peak, 3.5f);
-  EXPECT_LT(jab.peak, 4.9f);
+  EXPECT_LT(jab.peak, 6.8f);
   EXPECT_GT(jab.peak_before, 0.04f);
   EXPECT_LT(jab.peak_before, 0.09f);
 }
@@ -302,13 +303,22 @@ TEST(SheetMotion, AKickLeavesTheOtherHandBeforeTheFace) {
 
 TEST(SheetMotion, NoJointPops) {
   // Captured boxing at 60 Hz: velocity jumps of 2.0-2.7 m/s at the 99.9 % quantile, 5.4 in a kata.
+  // A kick's foot at the published 11-14 m/s is twice as fast as the captured ones.
+  const auto kicking = [](const Action& action, std::size_t joint) {
+    return joint >= index(Joint::left_lower_leg) &&
+           std::any_of(action.strikes.begin(), action.strikes.end(), [&](const Strike& strike) {
+             const bool left = joint < index(Joint::right_upper_leg);
+             return strike.joint == (left ? Joint::left_foot : Joint::right_foot);
+           });
+  };
   for (const auto& [name, action] : library()) {
     const std::vector<WorldPose> world = worlds(action);
     for (std::size_t i = 2; i < world.size(); ++i) {
       for (std::size_t j = 0; j < kJointCount; ++j) {
+        const bool kicks = kicking(action, j);
         const Vec3 before = world[i - 1].position[j] - world[i - 2].position[j];
         const Vec3 after = world[i].position[j] - world[i - 1].position[j];
-        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, 2.7f)
+        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, kicks ? 3.5f : 2.7f)
             << name << " " << vrm_name(joint_at(j)) << " at tick " << i;
       }
     }
