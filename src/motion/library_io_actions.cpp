@@ -9,7 +9,7 @@ namespace ringcraft {
 namespace {
 
 constexpr std::size_t kFrameBytes = (3 + 4 * kJointCount + 3) * sizeof(float) + 1;
-constexpr std::size_t kStrikeBytes = 3 + 2 * sizeof(Tick);
+constexpr std::size_t kStrikeBytes = 3 + 2 * sizeof(Tick) + sizeof(std::uint32_t) + 8;
 
 void put_strike(BytesOut& out, const Strike& strike) {
   out.put(strike.kind);
@@ -17,15 +17,21 @@ void put_strike(BytesOut& out, const Strike& strike) {
   out.put(strike.zone);
   out.put(strike.active_begin);
   out.put(strike.active_end);
+  out.put_text(strike.aim);
+  out.put(strike.nearest);
+  out.put(strike.farthest);
 }
 
 Strike get_strike(BytesIn& in) {
   Strike strike;
-  strike.kind = in.get(StrikeKind::side_kick);
+  strike.kind = in.get(StrikeKind::knee);
   strike.joint = in.get(Joint::right_toes);
   strike.zone = in.get(TargetZone::leg);
   strike.active_begin = in.get<Tick>();
   strike.active_end = in.get<Tick>();
+  strike.aim = in.get_text();
+  strike.nearest = in.get<float>();
+  strike.farthest = in.get<float>();
   return strike;
 }
 
@@ -52,6 +58,9 @@ bool inside(Tick begin, Tick end, Tick length) {
 
 std::string wrong_strike(const Strike& strike, Tick length) {
   if (!inside(strike.active_begin, strike.active_end, length)) return "a strike outside of it";
+  if (!std::isfinite(strike.nearest) || !std::isfinite(strike.farthest)) {
+    return "a distance that is no number";
+  }
   switch (strike.joint) {
     case Joint::left_hand:
     case Joint::right_hand:

@@ -29,7 +29,7 @@ MotionLibrary sample() {
       action_of("step", Kind::transition, test::step_clip(skeleton, {0, 0, 0.25f}, 30)),
       action_of("stagger", Kind::response, test::step_clip(skeleton, {0, 0, -0.25f}, 30))};
   actions[1].strikes = {
-      {StrikeKind::straight, Joint::left_hand, TargetZone::head, 6, 12}};
+      {StrikeKind::straight, Joint::left_hand, TargetZone::head, 6, 12, "chin", 0.8f, 1.1f}};
   actions[2].defense = Defense{DefenseKind::slip, 2, 9};
   actions[4].response =
       Response{ResponseKind::recovery_steps, 2, 1.5f, std::optional(TargetZone::body)};
@@ -77,8 +77,10 @@ void expect_equal(const Action& a, const Action& b) {
   ASSERT_EQ(a.strikes.size(), b.strikes.size());
   for (std::size_t i = 0; i < a.strikes.size(); ++i) {
     const Strike &s = a.strikes[i], &t = b.strikes[i];
-    EXPECT_EQ(std::tie(s.kind, s.joint, s.zone, s.active_begin, s.active_end),
-              std::tie(t.kind, t.joint, t.zone, t.active_begin, t.active_end));
+    EXPECT_EQ(std::tie(s.kind, s.joint, s.zone, s.active_begin, s.active_end, s.aim, s.nearest,
+                       s.farthest),
+              std::tie(t.kind, t.joint, t.zone, t.active_begin, t.active_end, t.aim, t.nearest,
+                       t.farthest));
   }
   ASSERT_EQ(a.defense.has_value(), b.defense.has_value());
   if (a.defense) {
