@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/hash.h"
 #include "physics/response.h"
 
 namespace ringcraft {
@@ -56,14 +57,16 @@ class Packer {
   int used_ = 0;
 };
 
-}  // namespace
-
-std::size_t ImpactMemo::KeyHash::operator()(const Key& key) const {
-  std::uint64_t h = key.a * 0x9e3779b97f4a7c15ULL ^ (key.b + 0x7f4a7c15ULL) * 0xc2b2ae3d27d4eb4fULL;
-  h ^= h >> 29;
-  h *= 0xbf58476d1ce4e5b9ULL;
-  return static_cast<std::size_t>(h ^ (h >> 32));
+// What an answer depends on beyond the steps: the actions, the body and the sizes of the steps.
+std::uint64_t world_of(const MotionTables& tables, const MemoSteps& size) {
+  const BodySpec& spec = tables.body().spec;
+  Hasher hasher;
+  hasher.add(tables.library().hash()).add(spec.height).add(spec.mass).add(spec.sex);
+  hasher.add(spec.toughness).add(size.ticks).add(size.azimuths).add(size.impulse);
+  return hasher.digest();
 }
+
+}  // namespace
 
 ImpactMemo::Key ImpactMemo::BlowSteps::key() const {
   Packer p;
@@ -74,16 +77,24 @@ ImpactMemo::Key ImpactMemo::BlowSteps::key() const {
   return {p.a(), p.b()};
 }
 
-ImpactMemo::Key ImpactMemo::ImpulseSteps::key() const {
+std::uint64_t ImpactMemo::ImpulseSteps::key() const {
   Packer p;
-  p.add(victim, 5).add(struck_action.value, 13).add(struck_age, 12);
+  p.add(moment.action.value, 13).add(moment.age, 12);
   p.add(static_cast<int>(struck), 5).add(blocked ? 1 : 0, 1).add(azimuth, 5).add(elevation, 3);
   p.add(impulse, 10);
-  return {p.a(), p.b()};
+  return p.a();
 }
 
-ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps)
-    : bodies_(std::move(bodies)), size_(steps) {}
+ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps,
+                       std::shared_ptr<ImpactStore> store)
+    : bodies_(std::move(bodies)), size_(steps), store_(std::move(store)) {
+  classes_.reserve(bodies_.size());
+  worlds_.reserve(bodies_.size());
+  for (const MotionTables* tables : bodies_) {
+    classes_.emplace_back(*tables, size_.ticks);
+    worlds_.push_back(world_of(*tables, size_));
+  }
+}
 
 ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
   // Between the striker's way and the surface's inner normal, as the line of the blow is (blow_of).
@@ -137,14 +148,19 @@ Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
       .impulse;
 }
 
+float ImpactMemo::root_yaw(const BlowSteps& blow) const {
+  const MotionTables& victim = *bodies_[static_cast<std::size_t>(blow.victim)];
+  return victim.at(blow.struck_action).root_at(blow.struck_age * size_.ticks).yaw;
+}
+
 ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impulse) const {
   ImpulseSteps steps{};
   steps.victim = blow.victim;
-  steps.struck_action = blow.struck_action;
-  steps.struck_age = blow.struck_age;
+  steps.moment = classes_[static_cast<std::size_t>(blow.victim)].of(blow.struck_action,
+                                                                    blow.struck_age * size_.ticks);
   steps.struck = blow.struck;
   steps.blocked = blow.blocked;
-  steps.azimuth = turn_step(yaw_of(impulse), size_.azimuths);
+  steps.azimuth = turn_step(yaw_of(impulse) - root_yaw(blow), size_.azimuths);
   steps.elevation = elevation_step(impulse);
   steps.impulse = step_of(glm::length(impulse), size_.impulse, 1000);
   return steps;
@@ -152,9 +168,11 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impuls
 
 ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
-  const ActionTable& action = victim.at(steps.struck_action);
-  const Tick age = action.clamped(steps.struck_age * size_.ticks);
-  const Vec3 line = direction_of(steps.azimuth, size_.azimuths, steps.elevation);
+  const ActionTable& action = victim.at(steps.moment.action);
+  const Tick age = action.clamped(steps.moment.age);
+  const float facing = action.root_at(age).yaw;
+  const Vec3 line =
+      yaw_rotation(facing) * direction_of(steps.azimuth, size_.azimuths, steps.elevation);
   const Capsule struck = action.capsules_at(age)[index(steps.struck)];
 
   ImpactAnswer answer;
@@ -174,14 +192,32 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
   input.contacts = action.action->clip.contacts_at(age);
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
   if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input);
-  answer.response = choose_response(victim.library(), answer.outcome, action.root_at(age).yaw);
+  answer.response = choose_response(victim.library(), answer.outcome, facing);
   answer.damage = damage_of(input.blow, answer.outcome);
+  return turned(answer, -facing);
+}
+
+ImpactAnswer ImpactMemo::turned(ImpactAnswer answer, float yaw) {
+  ImpactOutcome& outcome = answer.outcome;
+  const Quat turn = yaw_rotation(yaw);
+  outcome.direction = wrapped_angle(outcome.direction + yaw);
+  outcome.com_velocity = turn * outcome.com_velocity;
+  for (Vec3& m : outcome.moved) m = turn * m;
+  return answer;
+}
+
+ImpactAnswer ImpactMemo::kept(const ImpulseSteps& steps) const {
+  if (store_ == nullptr) return answer_of(steps);
+  const Key key{steps.key(), worlds_[static_cast<std::size_t>(steps.victim)]};
+  if (const auto found = store_->find(key)) return *found;
+  const ImpactAnswer answer = answer_of(steps);
+  store_->add(key, answer);
   return answer;
 }
 
 template <class Value, class Compute>
 const Value& ImpactMemo::looked_up(Shards<Value>& shards, const Key& key, const Compute& compute) {
-  Shard<Value>& shard = shards[(KeyHash()(key) >> 8) % shards.size()];
+  Shard<Value>& shard = shards[(ImpactKeyHash()(key) >> 8) % shards.size()];
   {
     const std::lock_guard lock(shard.mutex);
     ++shard.lookups;
@@ -193,17 +229,18 @@ const Value& ImpactMemo::looked_up(Shards<Value>& shards, const Key& key, const 
   return shard.entries.try_emplace(key, value).first->second;
 }
 
-const ImpactAnswer& ImpactMemo::answer(const LandedBlow& blow) {
+ImpactAnswer ImpactMemo::answer(const LandedBlow& blow) {
   const BlowSteps blow_steps = steps_of(blow);
   const Vec3 impulse =
       looked_up(impulses_, blow_steps.key(), [&] { return impulse_of(blow_steps); });
   const ImpulseSteps steps = steps_of(blow_steps, impulse);
-  return looked_up(answers_, steps.key(), [&] { return answer_of(steps); });
+  const Key key{steps.key(), static_cast<std::uint64_t>(steps.victim)};
+  return turned(looked_up(answers_, key, [&] { return kept(steps); }), root_yaw(blow_steps));
 }
 
 ImpactAnswer ImpactMemo::recomputed(const LandedBlow& blow) const {
   const BlowSteps steps = steps_of(blow);
-  return answer_of(steps_of(steps, impulse_of(steps)));
+  return turned(answer_of(steps_of(steps, impulse_of(steps))), root_yaw(steps));
 }
 
 std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t strike,
@@ -239,7 +276,8 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
   landed.contact.normal = kForward;
   landed.contact.velocity = -kForward * speed;
   landed.attacker_yaw = kPi;
-  return recomputed(landed).damage;
+  const BlowSteps steps = steps_of(landed);
+  return kept(steps_of(steps, impulse_of(steps))).damage;
 }
 
 ImpactMemo::Counts ImpactMemo::counts() const {

@@ -1,6 +1,6 @@
 #pragma once
-// The impact memo: impulse steps by quantised input, shared by a fight. The outcome is computed
-// from the quantised values, so a memo never changes a result.
+// The impact memo: impulse steps by quantised input, of one fight. The outcome is computed from the
+// quantised values, so a memo never changes a result.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,9 @@
 
 #include "physics/impact.h"
 #include "physics/response.h"
+#include "planner/impact_store.h"
 #include "planner/motion_tables.h"
+#include "planner/pose_classes.h"
 
 namespace ringcraft {
 
@@ -33,21 +35,14 @@ struct LandedBlow {
   float attacker_yaw = 0;  // of the attacker's action space, seen from the victim's, rad
 };
 
-// What physics answers.
-struct ImpactAnswer {
-  ImpactOutcome outcome;  // its direction is a yaw in the victim's action space
-  ActionId response;
-  std::int32_t damage = 0;  // thousandths of a point
-  float impulse = 0;        // N s
-  bool operator==(const ImpactAnswer&) const = default;
-};
-
 class ImpactMemo {
  public:
-  explicit ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps = {});
+  // `store`, where there is one, outlives the fight: what it holds need not be computed again.
+  explicit ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps = {},
+                      std::shared_ptr<ImpactStore> store = nullptr);
 
   // The same answer whether it was stored or not, on any number of threads.
-  const ImpactAnswer& answer(const LandedBlow& blow);
+  ImpactAnswer answer(const LandedBlow& blow);
   // The same without the memo.
   ImpactAnswer recomputed(const LandedBlow& blow) const;
 
@@ -55,22 +50,17 @@ class ImpactMemo {
   std::int32_t clean_damage(int attacker, ActionId attack, std::size_t strike, int victim) const;
 
   struct Counts {
-    std::uint64_t lookups = 0, entries = 0;  // neither depends on the number of threads
+    // Neither depends on the number of threads, nor on what a store holds.
+    std::uint64_t lookups = 0, entries = 0;
   };
   Counts counts() const;
 
  private:
-  struct Key {
-    std::uint64_t a = 0, b = 0;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
+  using Key = ImpactKey;
   template <class Value>
   struct Shard {
     mutable std::mutex mutex;
-    std::unordered_map<Key, Value, KeyHash> entries;
+    std::unordered_map<Key, Value, ImpactKeyHash> entries;
     std::uint64_t lookups = 0;
   };
   template <class Value>
@@ -89,23 +79,29 @@ class ImpactMemo {
   };
   struct ImpulseSteps {
     int victim;
-    ActionId struck_action;
-    Tick struck_age;
+    PoseMoment moment;  // of the pose class of the struck body
     Part struck;
     bool blocked;
-    int azimuth, elevation, impulse;
-    Key key() const;
+    int azimuth;  // off the facing of the struck body's root
+    int elevation, impulse;
+    std::uint64_t key() const;
   };
 
   BlowSteps steps_of(const LandedBlow& blow) const;
   Vec3 impulse_of(const BlowSteps& steps) const;
   ImpulseSteps steps_of(const BlowSteps& blow, Vec3 impulse) const;
-  ImpactAnswer answer_of(const ImpulseSteps& steps) const;
+  float root_yaw(const BlowSteps& blow) const;  // of the struck body, in its action space
+  ImpactAnswer answer_of(const ImpulseSteps& steps) const;  // seen from the struck body's root
+  ImpactAnswer kept(const ImpulseSteps& steps) const;       // the same, out of the store
+  static ImpactAnswer turned(ImpactAnswer answer, float yaw);
   template <class Value, class Compute>
   const Value& looked_up(Shards<Value>& shards, const Key& key, const Compute& compute);
 
   std::vector<const MotionTables*> bodies_;
+  std::vector<PoseClasses> classes_;   // one a body
+  std::vector<std::uint64_t> worlds_;  // ImpactKey::world, one a body
   MemoSteps size_;
+  std::shared_ptr<ImpactStore> store_;
   Shards<Vec3> impulses_;
   Shards<ImpactAnswer> answers_;
 };

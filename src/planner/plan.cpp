@@ -14,11 +14,12 @@ namespace {
 
 constexpr std::size_t kMostLines = 6;
 constexpr double kMarginTemperatures =
-    4;                               // moves farther than this below the best are never chosen
-constexpr double kRarityKept = 0.9;  // phi <- 0.9 phi + 0.1 [launched]
-constexpr Tick kHorizonStep = 30;    // 0.25 s: grid of shorter horizons under a node limit
-constexpr Tick kFirstHorizon = 90;   // 0.75 s
-constexpr double kFirstGrowth = 8;   // of the nodes per half second, before it is measured
+    4;                                  // moves farther than this below the best are never chosen
+constexpr double kRarityKept = 0.9;     // phi <- 0.9 phi + 0.1 [launched]
+constexpr Tick kHorizonStep = 30;       // 0.25 s: grid of shorter horizons under a node limit
+constexpr Tick kFirstHorizon = 90;      // 0.75 s
+constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
+constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured
 constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
 
 bool same_build(const BodySpec& a, const BodySpec& b) {
@@ -48,19 +49,20 @@ struct Planner::Inside {
   std::vector<std::vector<std::vector<std::vector<std::int32_t>>>> clean;
   std::vector<std::vector<double>> use;  // phi by contender and action
 
-  Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s);
+  Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
+         std::shared_ptr<ImpactStore> store);
   DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
                   Tick last_contact) const;
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
-  Searched search(const DuelSetup& setup, const FightState& state) const;
+  Searched search(const DuelSetup& setup, const FightState& state, const PlanLimits& limits) const;
   Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root) const;
   std::size_t choice(const Roots& roots, const Style& style, Tick now, FighterId fighter) const;
   Line line_of(const RootMove<Duel>& move, const DuelSetup& setup) const;
 };
 
 Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how,
-                        std::uint64_t s)
+                        std::uint64_t s, std::shared_ptr<ImpactStore> store)
     : library(of), contenders(std::move(who)), settings(how), seed(s) {
   for (const Contender& one : contenders) {
     const auto same = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {
@@ -71,7 +73,7 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
   }
   std::vector<const MotionTables*> pointers;
   for (const auto& one : tables) pointers.push_back(one.get());
-  memo = std::make_unique<ImpactMemo>(pointers);
+  memo = std::make_unique<ImpactMemo>(pointers, MemoSteps{}, std::move(store));
   clean.resize(tables.size());
   for (std::size_t a = 0; a < tables.size(); ++a) {
     clean[a].resize(tables.size());
@@ -164,18 +166,29 @@ Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup,
   return result;
 }
 
-// Iterative deepening by time, only under a node limit: a short horizon first, whose growth tells
-// how far the limit will carry.
-Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state) const {
+// Iterative deepening by time, only under a limit: a short horizon first, whose growth tells how
+// far the limit will carry.
+Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state,
+                                 const PlanLimits& limits) const {
   const Style& style = *setup.side[0].style;
   const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
   const DuelNode root = Duel::root(setup, state);
   const std::int32_t margin = thousandths(kMarginTemperatures * style.temperature);
   SearchSettings search_settings;
+  SearchStop stop;
+  stop.set_flag(limits.stop);
+  const auto begin = SearchStop::Clock::now();
+  if (limits.seconds > 0) {
+    stop.set_deadline(begin + std::chrono::duration_cast<SearchStop::Clock::duration>(
+                                  std::chrono::duration<double>(limits.seconds)));
+  }
+  if (limits.any()) search_settings.stop = &stop;
   RootSearch<Duel> search(search_settings, settings.threads, settings.alpha_beta);
   const std::uint64_t limit = settings.node_limit;
   Searched best;
-  Tick horizon = limit == 0 ? wanted : std::min(wanted, kFirstHorizon);
+  const bool limited = limit != 0 || limits.any();
+  Tick horizon =
+      limited ? std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon) : wanted;
   double growth = kFirstGrowth;
   std::uint64_t nodes_before = 0;
   while (true) {
@@ -195,6 +208,13 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
       growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / half_seconds));
     }
     nodes_before = search.spent();
+    if (limits.any()) {  // the next step, where what is left of the time should pay for it
+      const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
+      const double next = spent.count() * std::sqrt(growth);
+      if (limits.seconds > 0 && spent.count() + next > limits.seconds) break;
+      horizon = std::min(wanted, horizon + kHorizonStep);
+      continue;
+    }
     // The longest horizon of the grid that the limit should pay for, half of it kept in hand.
     const double room = 0.5 * static_cast<double>(limit) / nodes;
     const double steps = room > 1 ? std::log(room) / std::log(growth) * 2 : 0;
@@ -311,8 +331,9 @@ DecisionRecord record_of(const Searched& searched) {
 }  // namespace
 
 Planner::Planner(const MotionLibrary& library, std::vector<Contender> contenders,
-                 PlanSettings settings, std::uint64_t seed)
-    : inside_(std::make_unique<Inside>(library, std::move(contenders), settings, seed)) {}
+                 PlanSettings settings, std::uint64_t seed, std::shared_ptr<ImpactStore> store)
+    : inside_(std::make_unique<Inside>(library, std::move(contenders), settings, seed,
+                                       std::move(store))) {}
 
 Planner::~Planner() = default;
 
@@ -337,18 +358,24 @@ Plan resting(const MotionLibrary& library, const FightState& state, FighterId fi
 }  // namespace
 
 Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact) {
+  return plan(state, fighter, last_contact, {});
+}
+
+Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact,
+                   const PlanLimits& limits) {
   const Inside& in = *inside_;
   const FighterId opponent = in.opponent_of(state, fighter);
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
   if (!opponent.valid()) return resting(in.library, state, fighter, scale);
   const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
-  const Searched searched = in.search(setup, state);
+  const Searched searched = in.search(setup, state, limits);
   if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
   const Style& style = in.contenders[fighter.at()].style;
   const std::size_t chosen = in.choice(searched.roots, style, state.now, fighter);
 
   Plan plan;
   plan.record = record_of(searched);
+  plan.reproducible = !limits.any();
   std::size_t shown = std::min(kMostLines, searched.roots.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const bool last = i + 1 == shown;

@@ -1,6 +1,7 @@
 #pragma once
 // Planning: temporal expansion (Shum & Komura 2006) searched by alpha-beta.
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,6 +15,7 @@ namespace ringcraft {
 class MotionTables;   // per library and body: capsules, roots and strike sweeps by action and tick
 struct DecisionTree;  // planner/tree.h
 class ImpactMemo;     // quantised impulse steps, shared by a fight; a memo never changes a result
+class ImpactStore;    // impulse steps that are known already, shared by planners
 
 // One fighter as the planner sees it.
 struct Contender {
@@ -39,22 +41,37 @@ struct PlanSettings {
   bool alpha_beta = true;  // false: plain minimax, for tests
 };
 
+// For live use. A plan that a limit has cut short depends on the clock: it is marked.
+struct PlanLimits {
+  double seconds = 0;                       // of the wall clock; 0 is none
+  const std::atomic<bool>* stop = nullptr;  // ends the search as soon as it is true
+  bool any() const { return seconds > 0 || stop != nullptr; }
+};
+
 struct Plan {
   Launch launch;               // of the chosen action
   std::vector<ActionId> then;  // the rest of a path: to be launched in turn, without a new decision
   DecisionRecord record;       // lines, nodes, what was pruned
   std::vector<Event> foreseen;  // hits with their responses along the principal variation
+  bool reproducible = true;  // false under PlanLimits: another run may look less or farther ahead
 };
 
 // What does not change during a fight. Immutable but for the memo and the use counts.
 class Planner {
  public:
+  // `store`, where there is one, is looked into before an impulse step is made, and added to; it
+  // never changes a result.
   Planner(const MotionLibrary& library, std::vector<Contender> contenders, PlanSettings settings,
-          std::uint64_t seed);
+          std::uint64_t seed, std::shared_ptr<ImpactStore> store = nullptr);
   ~Planner();
 
   // The decision of `fighter`, who acts now, against its opponent; the others are obstacles.
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
+
+  // The same in a game's loop: looks ahead as far as the limits allow, in steps, and keeps the last
+  // horizon that was finished; where not even the shortest was, one step of every move is weighed.
+  Plan plan(const FightState& state, FighterId fighter, Tick last_contact,
+            const PlanLimits& limits);
 
   // The tree of the same decision, written out to `horizon` ticks from now (as
   // Plan::record.horizon says) and to at most `most_nodes` nodes. Empty where nobody is to be

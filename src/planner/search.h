@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace ringcraft {
@@ -44,12 +47,33 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
 inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
 
+// Ends a search from outside: asked for, or late. What it ends is thrown away.
+class SearchStop {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  void ask() { asked_.store(true, std::memory_order_relaxed); }
+  void set_deadline(Clock::time_point deadline) { deadline_ = deadline; }
+  void set_flag(const std::atomic<bool>* flag) { flag_ = flag; }
+  bool due() const {
+    return asked_.load(std::memory_order_relaxed) ||
+           (flag_ != nullptr && flag_->load(std::memory_order_relaxed)) ||
+           (deadline_ && Clock::now() >= *deadline_);
+  }
+
+ private:
+  std::atomic<bool> asked_{false};
+  const std::atomic<bool>* flag_ = nullptr;
+  std::optional<Clock::time_point> deadline_;
+};
+
 struct SearchSettings {
-  bool table = true;             // transposition table
-  bool killers = true;           // moves that cut off at the same depth are tried early
-  bool history = true;           // so are moves that cut off anywhere
-  int table_bits = 14;           // log2 of the table's size
-  std::uint64_t node_limit = 0;  // 0 is none
+  bool table = true;                 // transposition table
+  bool killers = true;               // moves that cut off at the same depth are tried early
+  bool history = true;               // so are moves that cut off anywhere
+  int table_bits = 14;               // log2 of the table's size
+  std::uint64_t node_limit = 0;      // 0 is none
+  const SearchStop* stop = nullptr;  // looked at every few nodes
 };
 
 struct SearchCounts {
@@ -161,6 +185,9 @@ class Search {
     line.clear();
     ++counts_.nodes;
     if (settings_.node_limit != 0 && counts_.nodes > settings_.node_limit) aborted_ = true;
+    if (settings_.stop != nullptr && counts_.nodes % 4 == 0 && settings_.stop->due()) {
+      aborted_ = true;
+    }
     if (aborted_) return 0;
     if (game.terminal(node)) {
       ++counts_.leaves;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include <set>
 
 #include "planner/duel_fixture.h"
@@ -233,6 +236,61 @@ TEST_F(PlanTest, AloneAFighterRests) {
   const Plan plan = planner.plan(state, FighterId(0), 0);
   EXPECT_TRUE(plan.launch.action.valid());
   EXPECT_GT(plan.launch.end, state.now);
+}
+
+TEST_F(PlanTest, WithoutAClockLimitsChangeNothingButTheMark) {
+  Style style = quick();
+  PlanSettings settings;
+  settings.node_limit = 0;
+  Planner a(library(), contenders(2, style), settings, 3),
+      b(library(), contenders(2, style), settings, 3);
+  const FightState state = facing(0.95f, 12);
+  const std::atomic<bool> never{false};
+  const Plan whole = a.plan(state, FighterId(0), 0),
+             live = b.plan(state, FighterId(0), 0, {0, &never});
+  EXPECT_TRUE(whole.reproducible);
+  EXPECT_FALSE(live.reproducible);
+  EXPECT_EQ(live.record.horizon, whole.record.horizon);  // deepened in steps to the same end
+  EXPECT_EQ(live.record.lines.front().score, whole.record.lines.front().score);
+  EXPECT_EQ(live.launch.action, whole.launch.action);
+}
+
+TEST_F(PlanTest, StoppedAtOnceAPlanStillHasALaunch) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  const std::atomic<bool> now{true};
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0, &now});
+  EXPECT_TRUE(plan.launch.action.valid());
+  EXPECT_FALSE(plan.reproducible);
+  EXPECT_LT(plan.record.horizon, ticks(quick().horizon_s));
+}
+
+TEST_F(PlanTest, StopEndsASearchThatIsUnderWay) {
+  Style style = quick();
+  style.horizon_s = 4;  // hours
+  PlanSettings settings;
+  settings.node_limit = 0;
+  Planner planner(library(), contenders(2, style), settings, 3);
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0, &stop});
+  other.join();
+  EXPECT_TRUE(plan.launch.action.valid());
+  EXPECT_LT(plan.record.horizon, ticks(4));
+}
+
+TEST_F(PlanTest, TimeLimitLeavesTheHorizonsThatWereFinished) {
+  Style style = quick();
+  style.horizon_s = 4;
+  PlanSettings settings;
+  settings.node_limit = 0;
+  Planner planner(library(), contenders(2, style), settings, 3);
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0.02, nullptr});
+  EXPECT_TRUE(plan.launch.action.valid());
+  EXPECT_LT(plan.record.horizon, ticks(4));
+  EXPECT_FALSE(plan.record.lines.empty());
 }
 
 TEST_F(PlanTest, MemoAnswersWhatRecomputingAnswers) {
