@@ -11,8 +11,10 @@
 #include "capture/read_capture.h"
 #include "capture/retarget.h"
 #include "scene/scene_file.h"
+#include "scene/study_bouts.h"
 #include "scene/study_clips.h"
 #include "scene/study_penetration.h"
+#include "scene/study_slowed.h"
 
 namespace ringcraft {
 
@@ -33,6 +35,9 @@ constexpr StudyEntry kStudies[] = {
     {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
      run_clips_study},
     {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0, run_hits_study},
+    {"horizon", "Horizons against each other: wins, hits, defenses, steps", "", 0, 0,
+     run_horizon_study},
+    {"styles", "Styles against each other: distance, hits, wins", "", 0, 0, run_styles_study},
 };
 
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
@@ -86,6 +91,67 @@ int finish_study(const Study& study, int code, const CommonOptions& options) {
   return study.interrupted ? 130 : code;
 }
 
+namespace {
+
+// The leaf values that were asked for.
+std::vector<LeafValue> leaves_of(const StudyOptions& study) {
+  if (study.leaf == "both") return {LeafValue::weighted, LeafValue::paper};
+  return {study.leaf == "paper" ? LeafValue::paper : LeafValue::weighted};
+}
+
+Result<Style> style_of(const std::string& name) {
+  return read_style(assets_folder() / "styles" / (name + ".toml"));
+}
+
+std::string with_leaf(const std::string& name, LeafValue leaf) {
+  return leaf == LeafValue::paper ? name + " (paper's leaf)" : name;
+}
+
+// "outboxer:infighter"; without a colon the style fights itself.
+Result<Pairing> style_pairing(const std::string& name, LeafValue leaf) {
+  const std::size_t colon = name.find(':');
+  Pairing pairing{with_leaf(name, leaf), {}};
+  const std::string names[] = {name.substr(0, colon),
+                               colon == std::string::npos ? name : name.substr(colon + 1)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto style = style_of(names[i]);
+    if (!style) return tl::unexpected(style.error());
+    pairing.side[i] = *style;
+    pairing.side[i].leaf = leaf;
+  }
+  return pairing;
+}
+
+// Runs the pairings and writes the study.
+int finish_pairings(Study study, const std::vector<Pairing>& pairings, const BoutSeries& series,
+                    const StudyOptions& options, const CommonOptions& common) {
+  StudyOptions of_scene;  // bodies, health and planner are those of the default scene
+  const auto scene = scene_of(of_scene, common);
+  if (!scene) return fail(scene.error());
+  auto library = load_library(options.library);
+  if (!library) return fail(library.error());
+  const MotionLibrary used =
+      options.slow > 1 ? slowed_library(*library, options.slow) : std::move(*library);
+  StudyRun run;
+  run.threads = common.threads;
+  run.interrupted = &interrupted;
+  if (!common.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const std::vector<PairingResult> results = run_pairings(used, *scene, pairings, series, run);
+  fill_bouts(study, results);
+  study.interrupted = run.stopped();
+  study.said.push_back(fmt::format(
+      "{} bouts of {:.0f} s a pairing at most, every second one with the sides swapped; ring "
+      "{:.0f} m, seed {}, library {} ({} actions, mean length {:.2f} s), node limit {}.",
+      series.bouts, series.duration_s, series.ring_m, scene->seed, used.name(),
+      used.actions().size(), mean_choice_seconds(used), scene->planner.node_limit));
+  study.said.emplace_back(
+      "A knockout wins, else more damage; a lead of 1 point or less is a draw and no win. "
+      "Intervals: Wilson, 95 %. First side a, second side b.");
+  return finish_study(study, 0, common);
+}
+
+}  // namespace
+
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
@@ -115,6 +181,55 @@ int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
   return finish_study(found, beyond ? 1 : 0, options);
 }
 
+int run_horizon_study(const StudyOptions& study, const CommonOptions& options) {
+  const auto style = style_of("balanced");
+  if (!style) return fail(style.error());
+  const std::vector<std::string> names =
+      study.pairings.empty() ? std::vector<std::string>{"3v1", "2v1", "3v2", "3v2.5", "1v1", "3v3"}
+                             : study.pairings;
+  std::vector<Pairing> pairings;
+  for (const LeafValue leaf : leaves_of(study)) {
+    for (const std::string& name : names) {
+      Style with = *style;
+      with.leaf = leaf;
+      auto pairing = horizon_pairing(name, with);
+      if (!pairing) {
+        return fail(Error{ErrorKind::usage, "--pairings", "",
+                          fmt::format("'{}' names no horizons", name),
+                          "give two horizons in seconds, as 3v1"});
+      }
+      pairing->name = with_leaf(name, leaf);
+      pairings.push_back(std::move(*pairing));
+    }
+  }
+  Study result;
+  result.name = "horizon";
+  result.title = "Horizon against horizon";
+  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
+                          study.ring_m > 0 ? study.ring_m : 6.0f};
+  return finish_pairings(std::move(result), pairings, series, study, options);
+}
+
+int run_styles_study(const StudyOptions& study, const CommonOptions& options) {
+  const std::vector<std::string> names =
+      study.pairings.empty() ? std::vector<std::string>{"outboxer:infighter", "balanced:balanced"}
+                             : study.pairings;
+  std::vector<Pairing> pairings;
+  for (const LeafValue leaf : leaves_of(study)) {
+    for (const std::string& name : names) {
+      auto pairing = style_pairing(name, leaf);
+      if (!pairing) return fail(pairing.error());
+      pairings.push_back(std::move(*pairing));
+    }
+  }
+  Study result;
+  result.name = "styles";
+  result.title = "Style against style";
+  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
+                          study.ring_m > 0 ? study.ring_m : 9.0f};
+  return finish_pairings(std::move(result), pairings, series, study, options);
+}
+
 void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),
                        CommonOptions& options, int& code) {
   CLI::App* command =
@@ -142,6 +257,15 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
         ->check(CLI::Range(0.0, 600.0));
     one->add_option("--limit", study->limit_m, "Depth that is still right, m")
         ->check(CLI::Range(0.0, 1.0));
+    one->add_option("--pairings", study->pairings, "3v1,2v1 (horizons, s) or outboxer:infighter")
+        ->type_name("A,B")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    one->add_option("--slow", study->slow, "Library in the paper's manner, slower by this factor")
+        ->check(CLI::Range(1.0, 5.0));
+    one->add_option("--leaf", study->leaf, "Leaf value")
+        ->check(CLI::IsMember({"weighted", "paper", "both"}));
+    one->add_option("--ring", study->ring_m, "Side of the ring, m")->check(CLI::Range(3.0, 50.0));
     one->add_flag("--all-contacts", study->all_contacts, "Count what a strike is meant to touch");
     add_common(*one, options);
     one->callback([&code, &options, study, run = entry.run] { code = run(*study, options); });

@@ -26,11 +26,17 @@ struct StudyOptions {
   double later_s = 0;        // by which the second motion begins later
   float limit_m = 0.02f;     // deeper is a fault
   bool all_contacts = false;
+  std::vector<std::string> pairings = {};  // "3v1" or "outboxer:infighter"
+  float slow = 1;                          // of the library in the paper's manner
+  std::string leaf = "weighted";
+  float ring_m = 0;  // 0: as the study has it
 };
 
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options);
 int run_clips_study(const StudyOptions& study, const CommonOptions& options);
 int run_hits_study(const StudyOptions& study, const CommonOptions& options);
+int run_horizon_study(const StudyOptions& study, const CommonOptions& options);
+int run_styles_study(const StudyOptions& study, const CommonOptions& options);
 
 // Writes the study's files and prints its table (or its JSON); the exit code is `code`, or 130
 // where it was interrupted.

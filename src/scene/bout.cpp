@@ -64,7 +64,7 @@ Bout::Bout(const MotionLibrary& library, const SceneFile& scene, const FightOpti
   }
   PlanSettings settings = scene.planner;
   settings.threads = options.threads;
-  planner_ = std::make_unique<Planner>(library, contenders, settings, scene.seed);
+  planner_ = std::make_unique<Planner>(library, contenders, settings, scene.seed, options.impacts);
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     begin(FighterId(i), state_.fighters[i].launch);
     state_.fighters[i].opponent = nearest_opponent(FighterId(i));

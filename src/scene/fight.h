@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "fight/timeline.h"
@@ -15,6 +16,7 @@ struct FightOptions {
   int threads = 1;                                 // never changes the result
   std::function<void(Tick, Tick)> progress;        // now, end
   const std::atomic<bool>* interrupted = nullptr;  // what is finished is kept
+  std::shared_ptr<ImpactStore> impacts = nullptr;  // shared by bouts; never changes the result
 };
 
 // How often the committed fight went through Bullet, and how well the tree had foreseen it.

@@ -1,0 +1,77 @@
+#include "scene/study_slowed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace ringcraft {
+namespace {
+
+constexpr float kBeforeBlow = 14, kRamp = 10;  // ticks of the source
+
+// Source ticks per shown tick at source time `t`: 1 around a blow, 1 / factor elsewhere.
+float rate_at(const Action& action, float factor, float t) {
+  float away = kRamp;  // ticks to the nearest window in which time runs as it did
+  for (const Strike& strike : action.strikes) {
+    const float begin = static_cast<float>(strike.active_begin) - kBeforeBlow;
+    const auto end = static_cast<float>(strike.active_end);
+    away = std::min(away, std::max({begin - t, t - end, 0.0f}));
+  }
+  const float share = away / kRamp;
+  return 1 / (1 + (factor - 1) * share);
+}
+
+}  // namespace
+
+Action slowed(const Action& action, float factor) {
+  const auto length = static_cast<float>(action.length());
+  std::vector<float> times{0};  // source time of each shown tick
+  while (times.back() < length) {
+    times.push_back(std::min(length, times.back() + rate_at(action, factor, times.back())));
+  }
+  if (times.size() < 2) return action;
+  Action out = action;
+  out.clip.frames.clear();
+  out.clip.root.clear();
+  out.clip.contacts.clear();
+  for (const float t : times) {
+    const auto tick = static_cast<Tick>(t);
+    const float share = t - static_cast<float>(tick);
+    out.clip.frames.push_back(mix(action.clip.at(tick), action.clip.at(tick + 1), share));
+    out.clip.root.push_back(mix(action.clip.root_at(tick), action.clip.root_at(tick + 1), share));
+    out.clip.contacts.push_back(action.clip.contacts_at(share < 0.5f ? tick : tick + 1));
+  }
+  unroll_rotations(out.clip);
+  const auto shown = [&](Tick source) {  // the first shown tick at or after a source tick
+    const auto at = std::lower_bound(times.begin(), times.end(), static_cast<float>(source));
+    return static_cast<Tick>(at - times.begin());
+  };
+  for (Strike& strike : out.strikes) {
+    strike.active_begin = shown(strike.active_begin);
+    strike.active_end = shown(strike.active_end);
+  }
+  if (out.defense) {
+    out.defense->begin = shown(out.defense->begin);
+    out.defense->end = shown(out.defense->end);
+  }
+  return out;
+}
+
+MotionLibrary slowed_library(const MotionLibrary& library, float factor) {
+  std::vector<Action> actions;
+  actions.reserve(library.actions().size());
+  for (const Action& action : library.actions()) {
+    const bool forced = action.kind == Kind::response || action.kind == Kind::get_up;
+    actions.push_back(forced ? action : slowed(action, factor));
+  }
+  return MotionLibrary(fmt::format("{} x {:.1f}", library.name(), factor), std::move(actions));
+}
+
+double mean_choice_seconds(const MotionLibrary& library) {
+  double sum = 0;
+  for (const ActionId id : library.launchable()) sum += seconds(library.action(id).length());
+  return library.launchable().empty() ? 0 : sum / static_cast<double>(library.launchable().size());
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,165 @@
+// Bouts of a study: scenes, counts, results that no thread changes, and the library slowed down.
+
+#include "scene/study_bouts.h"
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "fight/synthetic_library.h"
+#include "scene/study_slowed.h"
+
+namespace ringcraft {
+namespace {
+
+class StudyBoutsTest : public testing::Test {
+ protected:
+  static const MotionLibrary& library() {
+    static const MotionLibrary kLibrary = synthetic::library();
+    return kLibrary;
+  }
+  static SceneFile scene() {
+    SceneFile scene;
+    scene.fighters.resize(2);
+    scene.planner.node_limit = 400;
+    return scene;
+  }
+  static Pairing pairing() {
+    Style style;
+    style.horizon_s = 0.6;
+    return *horizon_pairing("0.8v0.4", style);
+  }
+};
+
+TEST_F(StudyBoutsTest, PairingReadsTwoHorizons) {
+  const auto pairing = horizon_pairing("3v2.5", {});
+  ASSERT_TRUE(pairing);
+  EXPECT_DOUBLE_EQ(pairing->side[0].horizon_s, 3);
+  EXPECT_DOUBLE_EQ(pairing->side[1].horizon_s, 2.5);
+  for (const char* wrong : {"3", "v1", "3v", "3v1s", "3v99", "3v-1", ""}) {
+    EXPECT_FALSE(horizon_pairing(wrong, {})) << wrong;
+  }
+}
+
+TEST_F(StudyBoutsTest, SidesSwapFromOneStart) {
+  const BoutSeries series{4, 10, 8};
+  const SceneFile even = bout_scene(scene(), pairing(), series, 2);
+  const SceneFile odd = bout_scene(scene(), pairing(), series, 3);
+  const SceneFile next = bout_scene(scene(), pairing(), series, 4);
+  EXPECT_EQ(even.seed, odd.seed);
+  EXPECT_NE(even.seed, next.seed);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(even.fighters[i].placement, odd.fighters[i].placement);
+    EXPECT_EQ(even.fighters[i].style.horizon_s, odd.fighters[1 - i].style.horizon_s);
+  }
+  const Vec3 apart = even.fighters[0].placement.position() - even.fighters[1].placement.position();
+  EXPECT_GT(glm::length(apart), 1.5f);
+  EXPECT_LT(glm::length(apart), 3.2f);
+  EXPECT_EQ(even.planner.ring_half_m, 4);
+}
+
+TEST_F(StudyBoutsTest, ThreadsAndASharedStoreChangeNoResult) {
+  const BoutSeries series{4, 3, 6};
+  StudyRun one, two;
+  two.threads = 2;
+  const auto a = run_pairings(library(), scene(), {pairing()}, series, one);
+  const auto b = run_pairings(library(), scene(), {pairing()}, series, two);
+  Study first, second;
+  fill_bouts(first, a);
+  fill_bouts(second, b);
+  EXPECT_EQ(a.front().bouts.size(), 4u);
+  EXPECT_EQ(study_csv(first.table), study_csv(second.table));
+  EXPECT_EQ(study_svg(first), study_svg(second));
+  // Bout 1 alone, without a store, is the same bout.
+  const FightRecord alone = simulate_fight(library(), bout_scene(scene(), pairing(), series, 1));
+  const BoutTally tally = tally_of(alone);
+  EXPECT_EQ(tally.side[1].damage, a.front().bouts[1].side[0].damage);  // the sides were swapped
+  EXPECT_EQ(tally.side[0].attacks, a.front().bouts[1].side[1].attacks);
+}
+
+TEST_F(StudyBoutsTest, TallyCountsWhatTheEventsSay) {
+  FightRecord record;
+  Timeline& timeline = record.timeline;
+  timeline.end = ticks(10);
+  timeline.tracks.resize(2);
+  const auto add = [&](Tick tick, EventType type, std::size_t who, float damage) -> Event& {
+    Event event;
+    event.tick = tick;
+    event.type = type;
+    event.who = FighterId(who);
+    event.damage = damage;
+    timeline.events.push_back(event);
+    return timeline.events.back();
+  };
+  add(120, EventType::strike, 0, 0);
+  add(130, EventType::hit, 0, 4);
+  add(130, EventType::response, 1, 0);
+  add(600, EventType::block, 1, 1);
+  BoutTally tally = tally_of(record);
+  EXPECT_EQ(tally.side[0].hits, 1);
+  EXPECT_EQ(tally.side[1].hits, 0);
+  EXPECT_DOUBLE_EQ(tally.side[1].damage, 1);
+  EXPECT_EQ(tally.winner, 0);
+  EXPECT_DOUBLE_EQ(tally.quiet_s, seconds(1200 - 600));
+  add(700, EventType::knockdown, 0, 0).knockout = true;  // who falls is who acts
+  tally = tally_of(record);
+  EXPECT_EQ(tally.winner, 1);
+  EXPECT_EQ(tally.side[1].knockdowns, 1);
+}
+
+TEST_F(StudyBoutsTest, NearlyEqualDamageIsADraw) {
+  FightRecord record;
+  record.timeline.end = 1200;
+  record.timeline.tracks.resize(2);
+  EXPECT_EQ(tally_of(record).winner, -1);
+  EXPECT_FALSE(tally_of(record).contact);
+}
+
+TEST_F(StudyBoutsTest, StoppedStudyKeepsNothingUnfinished) {
+  std::atomic<bool> stop{true};
+  StudyRun run;
+  run.interrupted = &stop;
+  const auto results = run_pairings(library(), scene(), {pairing()}, {2, 3, 6}, run);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_TRUE(results.front().bouts.empty());
+  Study study;
+  fill_bouts(study, results);
+  EXPECT_EQ(study.table.rows.size(), 1u);
+}
+
+TEST(StudySlowedTest, BlowsKeepTheirSpeedAndTheRestIsSlower) {
+  const MotionLibrary library = synthetic::library();
+  const Action& cross = library.action(library.find("cross"));
+  const Action slow = slowed(cross, 2.2f);
+  EXPECT_TRUE(faults(slow.clip).empty());
+  EXPECT_GT(slow.length(), cross.length() * 5 / 4);
+  const auto peak = [&](const Action& action) {
+    float most = 0;
+    const Strike& strike = action.strikes.front();
+    for (Tick t = strike.active_begin; t < strike.active_end; ++t) {
+      const auto at = [&](Tick tick) {
+        return world_pose(library.skeleton(), action.clip.at(tick)).position[index(strike.joint)];
+      };
+      most = std::max(most, glm::distance(at(t), at(t - 1)) / kTickSeconds);
+    }
+    return most;
+  };
+  EXPECT_NEAR(peak(slow), peak(cross), 0.05f * peak(cross));
+  const Action& step = library.action(library.find("step_back"));
+  EXPECT_NEAR(static_cast<double>(slowed(step, 2.2f).length()), 2.2 * step.length(), 2);
+  const Placement end = step.clip.root.back(), slow_end = slowed(step, 2.2f).clip.root.back();
+  EXPECT_NEAR(end.z, slow_end.z, 1e-4);
+}
+
+TEST(StudySlowedTest, ResponsesAreNotTouched) {
+  const MotionLibrary library = synthetic::library();
+  const MotionLibrary slow = slowed_library(library, 2.2f);
+  EXPECT_GT(mean_choice_seconds(slow), 1.5 * mean_choice_seconds(library));
+  for (const ActionId id : library.responses()) {
+    const ActionId same = slow.find(library.action(id).name);
+    ASSERT_TRUE(same.valid());
+    EXPECT_EQ(slow.action(same).length(), library.action(id).length());
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
