@@ -36,6 +36,45 @@ std::string table_rows(const MotionLibrary& library) {
   return rows;
 }
 
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string list_of(const char* title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string list = fmt::format("<h2>{}</h2><ul>\n", title);
+  for (const std::string& line : lines) list += fmt::format("<li>{}\n", escaped(line));
+  return list + "</ul>\n";
+}
+
+// What the builder found: the graph in figures, what it dropped, and on what evidence actions
+// stand.
+std::string builders_words(const MotionLibrary& library) {
+  const MotionGraph& graph = library.graph();
+  std::string text;
+  if (!graph.clips.empty()) {
+    std::size_t connecting = 0;
+    for (const Action& action : library.actions()) connecting += action.connects ? 1u : 0u;
+    text = fmt::format(
+        "<h2>Motion graph</h2><p>{} transitions between {} clips, of {} local minima under the "
+        "thresholds, {} of them outside of the largest strongly connected component; {} short ways "
+        "through it connect actions.</p>\n",
+        graph.transitions.size(), graph.clips.size(), graph.minima, graph.dropped, connecting);
+  }
+  return text + list_of("Dropped", library.dropped()) +
+         list_of("Notes and evidence", library.notes());
+}
+
 }  // namespace
 
 int run_library_inspect(const std::string& name, const CommonOptions& options) {
@@ -60,11 +99,12 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
   }
   const std::filesystem::path folder = options.out.empty() ? "out/library" : options.out;
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
-  const std::string page = fmt::format(
-      kPage, library->name(), library->actions().size(), library->count(Kind::attack),
-      library->count(Kind::combination), library->count(Kind::defense),
-      library->count(Kind::transition), library->count(Kind::idle), library->count(Kind::response),
-      library->count(Kind::get_up), table_rows(*library), filmstrip_svg(*library));
+  const std::string page =
+      fmt::format(kPage, library->name(), library->actions().size(), library->count(Kind::attack),
+                  library->count(Kind::combination), library->count(Kind::defense),
+                  library->count(Kind::transition), library->count(Kind::idle),
+                  library->count(Kind::response), library->count(Kind::get_up),
+                  table_rows(*library), builders_words(*library) + filmstrip_svg(*library));
   const std::filesystem::path file = folder / "library.html";
   if (const auto written = write_file(file, page); !written) return fail(written.error());
   fmt::print("{} actions; open {}\n", library->actions().size(), file.string());
