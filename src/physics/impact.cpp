@@ -92,11 +92,15 @@ void decide(const BodyModel& body, const ImpactInput& input, const ImpactFrame& 
     outcome.response = ResponseKind::recovery_steps;
     outcome.steps = steps;
   }
-  outcome.direction = way;
-  if (beyond.distance > 0) return;
-  // Still over its feet: the body gives the way it is pushed.
+  // A change of velocity is undone by a step in its direction (Hof 2008): the body goes the way it
+  // is pushed, unless it is out of its base on another side.
   const Vec3 push{frame.blow().impulse.x, 0, frame.blow().impulse.z};
-  outcome.direction = yaw_of(glm::length(push) > 1e-3f ? push : outcome.com_velocity);
+  const bool pushed = glm::length(push) > 1e-3f;
+  if (pushed && (beyond.distance <= 0 || glm::dot(push, beyond.direction) > 0)) {
+    outcome.direction = yaw_of(push);
+  } else {
+    outcome.direction = beyond.distance > 0 ? way : yaw_of(outcome.com_velocity);
+  }
 }
 
 // How far beyond its base the body is 100 ms after the blow. It stands where it stood; a kicked
@@ -122,8 +126,9 @@ float swept_by(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& r
   if (!frame.contacts().of(side)) return -1;
   const Joint ankle = leg(side).end;
   const Vec3 was = world_pose(body.skeleton, frame.pose()).position[index(ankle)];
+  const bool only = !frame.contacts().of(other(side));  // nothing else to stand on
   return glm::distance(ragdoll.motion(*part_of(ankle)).origin, was) -
-         kSwept * body.spec.height / 1.78f;
+         (only ? kSwept / 2 : kSwept) * body.spec.height / 1.78f;
 }
 
 }  // namespace

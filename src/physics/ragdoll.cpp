@@ -59,7 +59,7 @@ class Servo final : public btTypedConstraint {
     turning_ = turning_in_parent;
   }
 
-  void stop(std::optional<Quat> back, float most) {
+  void stop(const std::optional<Quat>& back, float most) {
     back_ = back;
     stop_torque_ = most;
   }
