@@ -76,7 +76,7 @@ struct Action {
   // Made by the builder from a way through the motion graph: leads from one action to another and
   // is never chosen for itself.
   bool connects = false;
-  std::string source;                // the capture or sheet, with the seconds cut from it
+  std::string source;  // the capture or sheet, with the seconds cut from it
 
   Tick length() const { return clip.length(); }
   bool attacks() const { return !strikes.empty(); }
