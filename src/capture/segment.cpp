@@ -84,7 +84,9 @@ std::vector<FoundBlow> all_blows(const Measures& m, const std::vector<Descent>& 
   for (FoundBlow& blow : hand_blows(m, settings)) {
     const bool swings = std::any_of(
         blows.begin(), blows.begin() + static_cast<long>(kick_count), [&](const FoundBlow& kick) {
-          return blow.strike.at > kick.begin - kArmsBeforeKick && blow.strike.at < kick.end;
+          const bool thrown = blow.strike.kind == StrikeKind::straight && !blow.blocks;
+          const double from = kick.begin - (thrown ? 0 : kArmsBeforeKick);
+          return blow.strike.at > from && blow.strike.at < kick.end;
         });
     const bool falls_down = std::any_of(falls.begin(), falls.end(), [&](const Descent& d) {
       const Tick peak = ticks(blow.strike.at);

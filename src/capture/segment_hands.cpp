@@ -30,6 +30,12 @@ constexpr float kCloses = 0.10f;      // extension by which an arm closes betwee
 constexpr float kRisesBent =
     0.90f;  // extension of a rising block at most: the forearm lies before the head
 constexpr float kUpright = radians(35);
+constexpr float kSwings = 0.30f;      // along_arm under which a hand swings round its shoulder
+constexpr float kSwingsBent = 0.92f;  // extension up to which such a swing is a bent-arm blow
+constexpr float kSwingsUp = 0.60f;    // share of its velocity upward in an uppercut
+constexpr float kSwingsIn = 0.50f;    // and inward in a hook
+constexpr float kSweepsIn = 0.60f;    // share of the velocity inward of a hand that crosses over
+constexpr float kCrossAhead = 0.47f;  // and ahead, which a blow has then at least
 constexpr float kSteepDown = -0.75f;  // share of the velocity: a hand that drops does not strike
 constexpr float kBentDown = -0.20f;
 
@@ -40,9 +46,10 @@ struct Stroke {
   Vec3 way{};         // direction of the velocity at the peak: outward, up, ahead
   Vec3 from{}, to{};  // wrist from the upper chest at start and reach, m, the same axes
   float least = 0, at_peak = 0, most = 0;  // extension before, at and after the peak
-  float turned = 0;                        // rad the gaze turns from start to reach
-  float highest = 0;                       // m: the wrist's top until shortly after the reach
-  float over_shoulder = 0;                 // m: the wrist over the own shoulder at the reach
+  float along_arm = 0;      // share of the velocity at the peak along the line from the shoulder
+  float turned = 0;         // rad the gaze turns from start to reach
+  float highest = 0;        // m: the wrist's top until shortly after the reach
+  float over_shoulder = 0;  // m: the wrist over the own shoulder at the reach
 };
 
 std::size_t at(Tick tick) {
@@ -65,6 +72,9 @@ Stroke stroke_of(const Measures& m, Side side, Tick peak) {
   s.speed = hand.speed[at(peak)];
   s.way = normalized_or(
       seen_along(hand.from_hips[at(peak + 1)] - hand.from_hips[at(peak - 1)], gaze, side), kUp);
+  s.along_arm =
+      glm::dot(normalized_or(hand.from_hips[at(peak + 1)] - hand.from_hips[at(peak - 1)], kUp),
+               normalized_or(m.at(wrist_of(side), peak) - m.at(arm(side).root, peak), -kUp));
   s.start = s.reach = peak;
   for (Tick t = peak; t >= m.clamped(peak - kWayOut); --t)
     if (placed_at(t).z < placed_at(s.start).z) s.start = t;
@@ -107,15 +117,21 @@ bool rises(const Measures& m, const Stroke& s, const SegmentSettings& set) {
          s.highest >= kChin * m.height;
 }
 
+// A hand that sweeps in more than it goes ahead parries.
+bool crosses_over(const Stroke& s) {
+  return s.way.x <= -kSweepsIn && s.way.z < kCrossAhead;
+}
+
 bool is_straight(const Stroke& s, const SegmentSettings& set) {
   return s.speed >= set.straight_speed && opens(s, set) && s.way.z >= set.goes_ahead &&
-         s.way.y > kSteepDown;
+         !crosses_over(s) && s.way.y > kSteepDown;
 }
 
 bool is_bent(const Measures& m, const Stroke& s, const SegmentSettings& set) {
-  return s.speed >= set.bent_speed && s.way.z >= set.bent_ahead && s.way.y >= kBentDown &&
-         s.most >= set.bent_least && s.to.z - s.from.z >= set.bent_gain * m.height &&
-         s.turned <= set.gaze_turn && m.hips_speed[at(s.peak)] <= set.travelling;
+  return s.speed >= set.bent_speed && s.way.z >= set.bent_ahead && !crosses_over(s) &&
+         s.way.y >= kBentDown && s.most >= set.bent_least &&
+         s.to.z - s.from.z >= set.bent_gain * m.height && s.turned <= set.gaze_turn &&
+         m.hips_speed[at(s.peak)] <= set.travelling;
 }
 
 // The hand leaves: the last moment before the peak at which it was slow.
@@ -167,8 +183,14 @@ std::optional<FoundBlow> classified(const Measures& m, const Stroke& s,
   if (sweeps_out(m, s, set))
     return blow_of(m, s, StrikeKind::hook, true, "sweeps out from across the body");
   if (rises(m, s, set)) return blow_of(m, s, StrikeKind::uppercut, true, "rises before the head");
-  if (is_straight(s, set))
+  const bool swings = s.along_arm < kSwings && s.most <= kSwingsBent;
+  if (is_straight(s, set)) {
+    if (swings && s.way.y >= kSwingsUp && s.highest >= kChin * m.height)
+      return blow_of(m, s, StrikeKind::uppercut, false, "rises to the chin, opening");
+    if (swings && s.way.x <= -kSwingsIn)
+      return blow_of(m, s, StrikeKind::hook, false, "swings in, opening");
     return blow_of(m, s, StrikeKind::straight, false, "opens along the gaze");
+  }
   if (!is_bent(m, s, set)) return std::nullopt;
   const bool up = s.way.y > 0.7f && s.highest >= kChin * m.height;
   return blow_of(m, s, up ? StrikeKind::uppercut : StrikeKind::hook, false,

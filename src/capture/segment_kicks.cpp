@@ -22,9 +22,12 @@ constexpr Tick kLongestUp = 180;   // ticks a foot is up before and after
 constexpr float kFloor = 0.10f;    // H: an ankle under it stands or shuffles
 constexpr float kSupport = 0.17f;  // H: the other foot's height at most, but in a spin
 constexpr float kSideOn = 0.50f;   // share of the reach that points out of the hip
+constexpr float kTurnedAside = radians(50);  // the hips off the gaze in a side kick
+constexpr float kRoundOpens =
+    0.6f;                          // share of leg_opens that is enough where the hips turn through
 constexpr float kThrusts = 0.80f;  // share of the velocity along the leg: side kicks push
 constexpr float kHead = 0.80f;     // H
-constexpr float kLegs = 0.38f;     // H
+constexpr float kLegs = 0.44f;     // H
 
 std::size_t at(Tick tick) {
   return static_cast<std::size_t>(tick);
@@ -38,6 +41,7 @@ struct Swing {
   float height = 0;            // m: the ankle at full reach
   float ahead = 0;             // m past the hips along the gaze at full reach
   float out = 0;               // share of the reach over the ground that points out of the hip
+  float aside = 0;             // rad of the hips off the gaze
   float thrust = 0;            // share of the peak velocity along the leg
   float turn = 0;              // rad the hips turn in 0.6 s, toward the other side positive
   float spin = 0;              // rad in 1.3 s
@@ -65,6 +69,7 @@ Swing swing_of(const Measures& m, Side side, Tick peak) {
   const Vec3 velocity =
       normalized_or(leg_tracks.from_hips[at(peak + 1)] - leg_tracks.from_hips[at(peak - 1)], kUp);
   s.thrust = glm::dot(velocity, normalized_or(m.at(foot, peak) - m.at(leg(side).root, peak), -kUp));
+  s.aside = std::abs(wrapped_angle(m.gaze[at(peak)] - m.pelvis_yaw[at(peak)]));
   const Vec3 own = seen_along(way, m.pelvis_yaw[at(s.reach)], side);
   s.out = own.x / std::max(0.01f, std::hypot(own.x, own.z));
   const Tick after = m.clamped(s.reach + kAfterReach);
@@ -81,7 +86,8 @@ Swing swing_of(const Measures& m, Side side, Tick peak) {
 
 bool is_kick(const Measures& m, const Swing& s, const SegmentSettings& set) {
   const bool spins = s.spin >= set.spin_turn;
-  return s.folded <= set.leg_folds && s.open - s.folded >= set.leg_opens &&
+  const float opens = set.leg_opens * (s.turn >= set.round_turn ? kRoundOpens : 1.0f);
+  return s.folded <= set.leg_folds && s.open - s.folded >= opens &&
          s.height >= set.kick_height * m.height && s.ahead >= set.kick_ahead * m.height &&
          (spins || s.other_foot <= kSupport * m.height) &&
          m.at(Joint::hips, s.peak).y >= set.standing * m.usual_hips;
@@ -104,7 +110,7 @@ FoundBlow blow_of(const Measures& m, const Swing& s, const SegmentSettings& set)
   StrikeKind kind = StrikeKind::front_kick;
   if (blow.spins || s.turn >= set.round_turn)
     kind = StrikeKind::roundhouse;
-  else if (s.out >= kSideOn && s.thrust >= kThrusts)
+  else if (s.out >= kSideOn && s.thrust >= kThrusts && s.aside >= kTurnedAside)
     kind = StrikeKind::side_kick;
   blow.strike.kind = kind;
   blow.strike.joint = leg(s.side).end;

@@ -20,7 +20,7 @@ struct SegmentSettings {
   float goes_ahead = 0.15f;      // share of the peak velocity along the gaze
   float bent_speed = 4.05f;      // the same as straight_speed, for hooks and uppercuts
   float bent_ahead = 0.20f;      // as goes_ahead
-  float bent_least = 0.50f;      // extension a bent-arm blow has at least
+  float bent_least = 0.45f;      // extension a bent-arm blow has at least
   float bent_gain = 0.08f;       // H the fist gains along the gaze
   float gaze_turn = 0.90f;       // rad the gaze may turn in a bent-arm blow
   float block_speed = 3.5f;      // for blocks
@@ -28,7 +28,7 @@ struct SegmentSettings {
   float rises = 0.87f;           // share of the peak velocity upward in a rising block
   // Kicks.
   float kick_speed = 3.4f;    // peak speed of the ankle relative to the hips
-  float leg_folds = 0.70f;    // hip-ankle over leg length, in the chamber
+  float leg_folds = 0.72f;    // hip-ankle over leg length, in the chamber
   float leg_opens = 0.25f;    // growth from there
   float kick_height = 0.20f;  // H: the ankle at full reach
   float kick_ahead = 0.15f;   // H: the ankle past the hips along the gaze at full reach
