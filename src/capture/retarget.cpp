@@ -10,6 +10,10 @@
 namespace ringcraft {
 namespace {
 
+constexpr std::size_t at(Side side) {
+  return static_cast<std::size_t>(side);
+}
+
 constexpr double kLongestCapture = 1800;  // s: what is read cannot exhaust the program
 
 // How the capture's rest pose is laid on ours: per joint, the rotation that turns our rest bone to
@@ -17,7 +21,8 @@ constexpr double kLongestCapture = 1800;  // s: what is read cannot exhaust the 
 struct RestFit {
   JointMap map;
   std::array<Quat, kJointCount> bone{};
-  float scale = 1;  // file units to metres of the body it goes to
+  float scale = 1;         // file units to metres of the body it goes to
+  Quat level{1, 0, 0, 0};  // turns the capture's floor, as its feet found it, to ours
 };
 
 Vec3 rest_bone(const RawPose& rest, const JointMap& map, Joint from, Joint to) {
@@ -91,110 +96,54 @@ void turn_soles_down(std::array<Quat, kJointCount>& world) {
   }
 }
 
+// Where a joint of the capture is, in our axes and at our size.
+Vec3 place_of(const RestFit& fit, const RawPose& source, Joint joint) {
+  return fit.level * fit.map.axes *
+         source.position[static_cast<std::size_t>(fit.map.source[index(joint)])] * fit.scale;
+}
+
+Vec3 place_of_hips(const RestFit& fit, const RawPose& source) {
+  return 0.5f * (place_of(fit, source, Joint::left_upper_leg) +
+                 place_of(fit, source, Joint::right_upper_leg));
+}
+
 Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source) {
   const Quat back = glm::inverse(fit.map.axes);
   std::array<Quat, kJointCount> world{};
   for (std::size_t j = 0; j < kJointCount; ++j)
     if (fit.map.source[j] >= 0)
-      world[j] = fit.map.axes * source.rotation[static_cast<std::size_t>(fit.map.source[j])] *
-                 back * fit.bone[j];
+      world[j] = fit.level * fit.map.axes *
+                 source.rotation[static_cast<std::size_t>(fit.map.source[j])] * back * fit.bone[j];
   fill_trunk(target, fit.map, world);
   for (std::size_t j = index(Joint::left_shoulder); j < kJointCount; ++j)
     if (fit.map.source[j] < 0) world[j] = world[static_cast<std::size_t>(kParent[j])];
   turn_soles_down(world);
 
   Pose pose;
-  const auto socket = [&](Joint joint) {
-    return source.position[static_cast<std::size_t>(fit.map.source[index(joint)])];
-  };
-  // The middle of the hip joints, which every skeleton has; where "hips" sits differs.
-  pose.hips = fit.map.axes * (socket(Joint::left_upper_leg) + socket(Joint::right_upper_leg)) *
-              0.5f * fit.scale;
   pose.rotation[0] = glm::normalize(world[0]);
   for (std::size_t j = 1; j < kJointCount; ++j)
     pose.rotation[j] =
         glm::normalize(glm::inverse(world[static_cast<std::size_t>(kParent[j])]) * world[j]);
+  // The middle of the hip joints, which every skeleton has; where "hips" sits differs.
+  const Vec3 sockets = 0.5f * (target.offset[index(Joint::left_upper_leg)] +
+                               target.offset[index(Joint::right_upper_leg)]);
+  pose.hips = place_of_hips(fit, source) - world[0] * sockets;
   return pose;
 }
 
-Vec3 wrist_off_hips(const RestFit& fit, const RawPose& source, Side side) {
-  const auto place = [&](Joint joint) {
-    return source.position[static_cast<std::size_t>(fit.map.source[index(joint)])];
-  };
-  const Vec3 hips = 0.5f * (place(Joint::left_upper_leg) + place(Joint::right_upper_leg));
-  return fit.map.axes * (place(arm(side).end) - hips) * fit.scale;
-}
+// Takes the tremble out of a path (above about 13 Hz). Hips and ankles alike: a foot that is held
+// would pass what only one of them has on to the knee.
+constexpr float kTrembleSigma = 0.012f;  // s
 
-// Takes the tremble out of the hips' path (above about 13 Hz): feet that are held would pass it on
-// to the knees.
 void calm_hips(Clip& clip) {
   std::vector<Vec3> path;
+  path.reserve(clip.frames.size());
   for (const Pose& pose : clip.frames) path.push_back(pose.hips);
-  path = smoothed(path, 0.012f);
+  path = smoothed(path, kTrembleSigma);
   for (std::size_t i = 0; i < path.size(); ++i) clip.frames[i].hips = path[i];
 }
 
-// The height of the floor: where the balls of the planted feet stand, the median over both.
-float floor_height(const Skeleton& target, const Clip& clip) {
-  std::vector<float> heights;
-  std::vector<float> all;
-  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-    const WorldPose world = world_pose(target, clip.frames[i]);
-    for (const Side side : {Side::left, Side::right}) {
-      const float ball = world.position[index(toes(side))].y - target.toe_height();
-      all.push_back(ball);
-      if (clip.contacts[i].of(side)) heights.push_back(ball);
-    }
-  }
-  std::vector<float>& used = heights.empty() ? all : heights;
-  // Without contacts (a clip in the air) the lowest twentieth stands for the floor.
-  const std::size_t at = heights.empty() ? used.size() / 20 : used.size() / 2;
-  std::nth_element(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(at), used.end());
-  return used[at];
-}
-
 }  // namespace
-
-std::vector<FootContacts> capture_contacts(const RawClip& raw, const JointMap& map, float scale,
-                                           const RetargetSettings& settings) {
-  const auto count = static_cast<std::size_t>(std::floor(raw.seconds() * kTicksPerSecond)) + 1;
-  std::vector<FootContacts> contacts(count);
-  std::array<std::vector<Vec3>, 2> ball;
-  for (std::size_t i = 0; i < count; ++i) {
-    const RawPose pose = raw_pose(raw, static_cast<double>(i) / kTicksPerSecond);
-    for (const Side side : {Side::left, Side::right}) {
-      int joint = map.source[index(toes(side))];
-      if (joint < 0) joint = map.source[index(leg(side).end)];
-      ball[static_cast<std::size_t>(side)].push_back(
-          map.axes * pose.position[static_cast<std::size_t>(joint)] * scale);
-    }
-  }
-  for (const Side side : {Side::left, Side::right}) {
-    const std::vector<Vec3>& path = ball[static_cast<std::size_t>(side)];
-    std::vector<float> heights;
-    heights.reserve(path.size());
-    for (const Vec3& p : path) heights.push_back(p.y);
-    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-    std::nth_element(heights.begin(), low, heights.end());
-    std::vector<bool> planted(count);
-    bool carries = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t before = i >= 2 ? i - 2 : 0;
-      const std::size_t after = std::min(i + 2, count - 1);
-      const float elapsed =
-          static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
-      const float speed = glm::distance(path[before], path[after]) / elapsed;
-      carries = path[i].y < *low + settings.contact_height &&
-                speed < (carries ? settings.release_speed : settings.contact_speed);
-      planted[i] = carries;
-    }
-    close_short_runs(planted, false, 5);
-    close_short_runs(planted, true, 8);
-    for (std::size_t i = 0; i < count; ++i)
-      (side == Side::left ? contacts[i].left : contacts[i].right) = planted[i];
-  }
-  return contacts;
-}
 
 Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target,
                       const RetargetSettings& settings) {
@@ -208,14 +157,35 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
                        "cut the file into shorter ones");
   auto fit = lay_on(raw, profile, target);
   if (!fit) return tl::unexpected(fit.error());
+  const auto count = static_cast<std::size_t>(std::floor(raw.seconds() * kTicksPerSecond)) + 1;
+  const auto moment = [&](std::size_t i) {
+    return raw_pose(raw, static_cast<double>(i) / kTicksPerSecond);
+  };
+  CapturedFeet feet;
+  feet.has_toes = fit->map.source[index(Joint::left_toes)] >= 0 &&
+                  fit->map.source[index(Joint::right_toes)] >= 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const RawPose source = moment(i);
+    for (const Side side : {Side::left, Side::right}) {
+      const bool has_toes = fit->map.source[index(toes(side))] >= 0;
+      feet.ball[at(side)].push_back(place_of(*fit, source, has_toes ? toes(side) : leg(side).end));
+    }
+    feet.hips.push_back(place_of_hips(*fit, source));
+  }
   Clip clip;
-  clip.contacts = capture_contacts(raw, fit->map, fit->scale, settings);
+  fit->level = floor_level(feet, settings);
+  for (auto& path : feet.ball)
+    for (Vec3& p : path) p = fit->level * p;
+  clip.contacts = contacts_of(feet, settings);
   std::array<std::vector<Vec3>, 2> hands;
-  for (std::size_t i = 0; i < clip.contacts.size(); ++i) {
-    const RawPose source = raw_pose(raw, static_cast<double>(i) / kTicksPerSecond);
+  for (std::size_t i = 0; i < count; ++i) {
+    const RawPose source = moment(i);
     clip.frames.push_back(pose_from(target, *fit, source));
-    for (const Side side : {Side::left, Side::right})
-      hands[static_cast<std::size_t>(side)].push_back(wrist_off_hips(*fit, source, side));
+    feet.hips[i] = place_of_hips(*fit, source);
+    for (const Side side : {Side::left, Side::right}) {
+      hands[at(side)].push_back(place_of(*fit, source, arm(side).end) - feet.hips[i]);
+      feet.ankle[at(side)].push_back(place_of(*fit, source, leg(side).end));
+    }
   }
   if (clip.frames.size() < 2)
     return input_error(raw.file, "", "a capture shorter than a tick is no motion",
@@ -223,12 +193,16 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   clip.root.assign(clip.frames.size(), Placement{});
   turn_to_hinges(target, clip);
   carry_hands(target, hands, clip);
-  const float floor = floor_height(target, clip);
-  for (Pose& pose : clip.frames) pose.hips.y -= floor;
+  stand_on_floor(target, feet, clip);
   calm_hips(clip);
+  for (auto& path : feet.ankle) path = smoothed(path, kTrembleSigma);
+  carry_feet(target, feet, clip);
   clear_floor(target, clip);
   fit_wrists(clip);
-  plant_feet(target, clip, settings);
+  RetargetSettings planting = settings;
+  // Without toes the height of a ball of the foot is a guess, and says nothing about the floor.
+  if (!feet.has_toes) planting.floor_play = 0;
+  plant_feet(target, clip, planting);
   unroll_rotations(clip);
   return clip;
 }

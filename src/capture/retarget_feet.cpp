@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "capture/retarget.h"
-#include "motion/smooth.h"
 #include "motion/ik.h"
+#include "motion/smooth.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kSoftShare = 0.97f;  // of a leg's length: beyond it its reach is eased
+constexpr float kSoftShare = 0.985f;  // of a leg's length: beyond it its reach is eased
 constexpr float kFoldedShare =
     0.262f;  // of a leg's length: hip to ankle when the knee bends by 150 degrees
 constexpr float kLargestShift = 0.12f;        // m by which the hips give way
@@ -17,101 +17,125 @@ constexpr float kDorsiflexion = radians(34);  // an ankle under the body's weigh
 constexpr float kNearFloor =
     0.06f;  // m: a ball of the foot lower than this bends its toes to the floor
 
+constexpr float kTouchTicks = 12;  // over which a ball of the foot leaves the height of its plant
+constexpr float kHeel = -0.04f;    // m of the heel behind the ankle
+constexpr float kCreep = 0.06f;    // m/s at which a planted ball of the foot moves to its next rest
+
 struct FootTrack {
   std::vector<Quat> foot, toe;  // world rotations, laid flat near the floor
   std::vector<Vec3> ball;       // where the ball of the foot goes
+  std::vector<Vec3> ankle;      // where the ankle would go
 };
 
-// The foot's rotation with its heel not under the floor: where it points up more than flat, it is
-// flat.
-Quat with_heel_up(const Skeleton& skeleton, Side side, Quat foot, float share) {
-  const Vec3 flat = skeleton.offset[index(toes(side))];
+// The rotation that lays a foot which points up more than flat down to flat.
+Quat laid_flat(Vec3 flat, Quat foot) {
   const Vec3 points = foot * flat;
-  if (share <= 0 || points.y <= flat.y) return foot;
   const float ground = std::hypot(points.x, points.z);
-  if (ground < 1e-3f) return foot;
+  if (points.y <= flat.y || ground < 1e-3f) return foot;
   const float reach = std::hypot(flat.x, flat.z) / ground;
   const Vec3 laid(points.x * reach, flat.y, points.z * reach);
-  return glm::normalize(
-      glm::slerp(foot, in_hemisphere_of(rotation_between(points, laid) * foot, foot), share));
+  return in_hemisphere_of(rotation_between(points, laid) * foot, foot);
+}
+
+// The share of laid_flat that a foot needs for its heel not to go under the floor, the ankle at
+// `ankle_height`.
+float share_laid(const Skeleton& skeleton, Vec3 flat, Quat foot, float ankle_height) {
+  const Vec3 heel(0, -skeleton.ankle_height(), kHeel);
+  if ((foot * flat).y <= flat.y || ankle_height + (foot * heel).y >= 0) return 0;
+  const Quat laid = laid_flat(flat, foot);
+  float low = 0, high = 1;
+  for (int round = 0; round < 10; ++round) {
+    const float share = 0.5f * (low + high);
+    (ankle_height + (glm::slerp(foot, laid, share) * heel).y >= 0 ? high : low) = share;
+  }
+  return high;
 }
 
 FootTrack foot_track(const Skeleton& skeleton, const Clip& clip, Side side) {
   FootTrack track;
   for (const Pose& pose : clip.frames) {
     const WorldPose world = world_pose(skeleton, pose);
-    const Vec3 ball = world.position[index(toes(side))];
-    const float share = 1 - glm::smoothstep(0.0f, kNearFloor, ball.y - skeleton.toe_height());
-    const Quat foot = with_heel_up(skeleton, side, world.rotation[index(leg(side).end)], share);
-    const Quat toe = world.rotation[index(toes(side))];
-    const Quat flat = yaw_rotation(yaw_of(foot * kForward));
-    track.foot.push_back(foot);
-    track.toe.push_back(glm::slerp(toe, in_hemisphere_of(flat, toe), share));
-    track.ball.push_back(ball);
+    track.foot.push_back(world.rotation[index(leg(side).end)]);
+    track.toe.push_back(world.rotation[index(toes(side))]);
+    track.ball.push_back(world.position[index(toes(side))]);
+    track.ankle.push_back(world.position[index(leg(side).end)]);
   }
   return track;
 }
 
-// Moves the path of one ball of the foot: planted it stands at the mean of its path on the floor;
-// between, the correction goes over smoothly from one plant to the next.
-void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSettings& settings,
-         FootTrack& track) {
+struct Plant {
+  std::size_t begin, end;
+  std::vector<Rest> rests;  // at least one
+  float lift;               // m by which the capture's floor lies lower than ours here
+};
+
+// Lengthens the ways between rests, at the cost of the rests, until the ball creeps no faster than
+// kCreep.
+void slow_down(std::vector<Rest>& rests) {
+  for (std::size_t r = 1; r < rests.size(); ++r) {
+    Rest& from = rests[r - 1];
+    Rest& to = rests[r];
+    const float needs = glm::distance(from.place, to.place) / (kCreep * kTickSeconds);
+    const float gap = static_cast<float>(to.begin - from.end);
+    const auto more = static_cast<std::size_t>(std::max(0.0f, needs - gap) / 2);
+    from.end -= std::min(more, (from.end - from.begin) / 2);
+    to.begin += std::min(more, (to.end - to.begin) / 2);
+  }
+}
+
+// Where a planted ball of the foot stands: at its rests, moving slowly from one to the next.
+Vec3 place_at(const Plant& plant, std::size_t i) {
+  const std::vector<Rest>& rests = plant.rests;
+  std::size_t next = 0;
+  while (next < rests.size() && rests[next].begin <= i) ++next;
+  if (next == 0) return rests.front().place;
+  const Rest& last = rests[next - 1];
+  if (next == rests.size() || i < last.end) return last.place;
+  const float share = (static_cast<float>(i - last.end) + 1) /
+                      (static_cast<float>(rests[next].begin - last.end) + 1);
+  return glm::mix(last.place, rests[next].place, glm::smoothstep(0.0f, 1.0f, share));
+}
+
+std::vector<Plant> plants_of(const Skeleton& skeleton, const Clip& clip, Side side,
+                             const RetargetSettings& settings, const FootTrack& track) {
   const std::size_t count = track.ball.size();
-  struct Plant {
-    std::size_t begin, end;
-    Vec3 place;
-  };
   std::vector<Plant> plants;
   for (std::size_t i = 0; i < count;) {
     std::size_t end = i;
     Vec3 sum{};
-    while (end < count && clip.contacts[end].of(side)) sum += track.ball[end++];
+    std::vector<float> heights;
+    while (end < count && clip.contacts[end].of(side)) {
+      heights.push_back(track.ball[end].y);
+      sum += track.ball[end++];
+    }
     if (end == i) {
       ++i;
       continue;
     }
-    Vec3 place = sum / static_cast<float>(end - i);
-    if (i == 0 && settings.keep_first_plants) place = track.ball.front();
-    place.y = skeleton.toe_height();
-    plants.push_back({i, end, place});
+    Plant plant{i, end, {}, 0};
+    if (!settings.keep_first_plants) plant.rests = rests_of(track.ball, i, end);
+    if (plant.rests.empty()) plant.rests.push_back({i, end, sum / static_cast<float>(end - i)});
+    if (i == 0 && settings.keep_first_plants) plant.rests.front().place = track.ball.front();
+    for (Rest& rest : plant.rests) rest.place.y = skeleton.toe_height();
+    slow_down(plant.rests);
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    plant.lift =
+        std::clamp(skeleton.toe_height() - *middle, -settings.floor_play, settings.floor_play);
+    plants.push_back(std::move(plant));
     i = end;
   }
-  std::vector<Vec3> moved = track.ball;
-  const auto correction = [&](const Plant& plant, std::size_t at) {
-    return plant.place - track.ball[at];
-  };
-  const auto blend = static_cast<float>(ticks(static_cast<double>(settings.blend_seconds)));
-  for (std::size_t p = 0; p <= plants.size(); ++p) {
-    const std::size_t from = p == 0 ? 0 : plants[p - 1].end;
-    const std::size_t to = p == plants.size() ? count : plants[p].begin;
-    for (std::size_t i = from; i < to; ++i) {
-      // Out of the last plant and into the next, each over the blend or half of the way between.
-      const auto swing = static_cast<float>(to - from);
-      const float reach =
-          p == 0 || p == plants.size() ? blend : std::max(std::min(blend, swing), 1.0f);
-      Vec3 shift{};
-      float weight = 0;
-      if (p > 0) {
-        const float w = 1 - glm::smoothstep(0.0f, reach, static_cast<float>(i - from) + 1);
-        shift += correction(plants[p - 1], plants[p - 1].end - 1) * w;
-        weight += w;
-      }
-      if (p < plants.size()) {
-        const float w = 1 - glm::smoothstep(0.0f, reach, static_cast<float>(to - i));
-        shift += correction(plants[p], plants[p].begin) * w;
-        weight += w;
-      }
-      moved[i] += weight > 1 ? shift / weight : shift;
-      moved[i].y = std::max(moved[i].y, skeleton.toe_height());
-    }
-    if (p < plants.size())
-      for (std::size_t i = plants[p].begin; i < plants[p].end; ++i) moved[i] = plants[p].place;
-  }
-  track.ball = std::move(moved);
+  return plants;
 }
 
-Vec3 ankle_at(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i) {
-  return track.ball[i] - track.foot[i] * skeleton.offset[index(toes(side))];
+// By how much ball and ankle leave the way they would go.
+struct Correction {
+  Vec3 ball{}, ankle{};
+};
+
+Correction correction(const Plant& plant, const FootTrack& track, std::size_t i) {
+  const Vec3 ball = place_at(plant, i) - track.ball[i];
+  return {ball, {ball.x, plant.lift, ball.z}};
 }
 
 // The least within `around` ticks where it is below zero, the most where it is above: a smoothed
@@ -125,11 +149,92 @@ std::vector<float> widened(const std::vector<float>& needs, std::size_t around) 
   return out;
 }
 
+// Turns the foot to where ball and ankle want it, with its heel out of the floor; where that lays
+// it, the ball goes down.
+void turn_feet(const Skeleton& skeleton, Side side, FootTrack& track) {
+  const std::size_t count = track.ball.size();
+  const Vec3 flat = skeleton.offset[index(toes(side))];
+  std::vector<float> share(count), ankle(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Quat turn = rotation_between(track.foot[i] * flat, track.ball[i] - track.ankle[i]);
+    track.foot[i] = glm::normalize(turn * track.foot[i]);
+    ankle[i] = track.ball[i].y - (track.foot[i] * flat).y;
+    const float above = track.ball[i].y - skeleton.toe_height();
+    share[i] = share_laid(skeleton, flat, track.foot[i], ankle[i]) *
+               (1 - glm::smoothstep(kNearFloor, 2 * kNearFloor, above));
+  }
+  share = smoothed(widened(share, 4), 0.016f);
+  for (std::size_t i = 0; i < count; ++i) {
+    track.foot[i] =
+        glm::normalize(glm::slerp(track.foot[i], laid_flat(flat, track.foot[i]), share[i]));
+    track.ball[i].y = std::max(skeleton.toe_height(), ankle[i] + (track.foot[i] * flat).y);
+  }
+}
+
+// Moves the path of one foot: the ball, planted, stands still on the floor; between plants the
+// correction goes over smoothly from one to the next. The foot turns about its ball to where the
+// ankle goes its own way.
+void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSettings& settings,
+         FootTrack& track) {
+  const std::size_t count = track.ball.size();
+  const std::vector<Plant> plants = plants_of(skeleton, clip, side, settings, track);
+  std::vector<Correction> moved(count);
+  const auto blend = static_cast<float>(ticks(static_cast<double>(settings.blend_seconds)));
+  for (std::size_t p = 0; p <= plants.size(); ++p) {
+    const std::size_t from = p == 0 ? 0 : plants[p - 1].end;
+    const std::size_t to = p == plants.size() ? count : plants[p].begin;
+    for (std::size_t i = from; i < to; ++i) {
+      // Out of the last plant and into the next, each over the blend or half of the way between.
+      const auto swing = static_cast<float>(to - from);
+      const float reach =
+          p == 0 || p == plants.size() ? blend : std::max(std::min(blend, swing), 1.0f);
+      Correction shift;
+      float weight = 0;
+      const auto add = [&](const Correction& by, float w, float away) {
+        const float down = 1 - glm::smoothstep(0.0f, std::min(reach, kTouchTicks), away);
+        shift.ball += by.ball * Vec3(w, down, w);
+        shift.ankle += by.ankle * w;
+        weight += w;
+      };
+      if (p > 0)
+        add(correction(plants[p - 1], track, plants[p - 1].end - 1),
+            1 - glm::smoothstep(0.0f, reach, static_cast<float>(i - from) + 1),
+            static_cast<float>(i - from) + 1);
+      if (p < plants.size())
+        add(correction(plants[p], track, plants[p].begin),
+            1 - glm::smoothstep(0.0f, reach, static_cast<float>(to - i)),
+            static_cast<float>(to - i));
+      const float most = std::max(weight, 1.0f);
+      moved[i] = {shift.ball / most, shift.ankle / most};
+    }
+    if (p < plants.size())
+      for (std::size_t i = plants[p].begin; i < plants[p].end; ++i)
+        moved[i] = correction(plants[p], track, i);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    track.ball[i] += moved[i].ball;
+    track.ball[i].y = std::max(track.ball[i].y, skeleton.toe_height());
+    track.ankle[i] += moved[i].ankle;
+  }
+  turn_feet(skeleton, side, track);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float above = track.ball[i].y - skeleton.toe_height();
+    const float share = 1 - glm::smoothstep(0.0f, kNearFloor, above);
+    const Quat laid = yaw_rotation(yaw_of(track.foot[i] * kForward));
+    track.toe[i] = glm::slerp(track.toe[i], in_hemisphere_of(laid, track.toe[i]), share);
+  }
+}
+
+Vec3 ankle_at(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i) {
+  return track.ball[i] - track.foot[i] * skeleton.offset[index(toes(side))];
+}
+
 // Moves the hips up or down, smoothly, where a planted leg is too short for its place, or folded
-// further than its knee goes.
+// further than its knee goes. They sink for longer than one step, so that a walk is not made to
+// bob, and rise as briefly as the fold lasts.
 void fit_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Clip& clip) {
   const std::size_t count = clip.frames.size();
-  std::vector<float> rise(count);
+  std::vector<float> sink(count), rise(count);
   const float most = kSoftShare * skeleton.leg_length();
   const float least = kFoldedShare * skeleton.leg_length();
   for (std::size_t i = 0; i < count; ++i) {
@@ -142,13 +247,14 @@ void fit_hips(const Skeleton& skeleton, const std::array<FootTrack, 2>& feet, Cl
       const float lowest = ground < least ? std::sqrt(least * least - ground * ground) : -1.0f;
       const float highest = std::sqrt(most * most - ground * ground);
       if (-line.y > highest)
-        rise[i] = std::max(std::min(rise[i], highest + line.y), -kLargestShift);
-      if (-line.y < lowest && rise[i] >= 0)
+        sink[i] = std::max(std::min(sink[i], highest + line.y), -kLargestShift);
+      if (-line.y < lowest && sink[i] >= 0)
         rise[i] = std::min(std::max(rise[i], lowest + line.y), kLargestShift);
     }
   }
-  const std::vector<float> smooth = smoothed(widened(rise, 8), 0.04f);
-  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y += smooth[i];
+  sink = smoothed(widened(sink, 40), 0.15f);
+  rise = smoothed(widened(rise, 8), 0.04f);
+  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y += sink[i] + rise[i];
 }
 
 void place_leg(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i,

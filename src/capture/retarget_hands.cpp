@@ -1,14 +1,13 @@
 // Hands that go the captured way although their shoulders sit elsewhere: see carry_hands in
 // retarget.h.
 #include "capture/retarget.h"
-#include "motion/smooth.h"
 #include "motion/ik.h"
+#include "motion/smooth.h"
 
 namespace ringcraft {
 namespace {
 
 constexpr float kSoftShare = 0.985f;  // of an arm's length: beyond it its reach is eased
-constexpr float kFacingSigma = 2.0f;  // s over which the body's facing is taken
 constexpr float kLeastScale = 0.7f, kMostScale = 1.4f;
 
 Vec3 wrist_off_hips(const WorldPose& world, Side side) {
@@ -17,50 +16,44 @@ Vec3 wrist_off_hips(const WorldPose& world, Side side) {
                  world.position[index(Joint::right_upper_leg)]);
 }
 
-// Where the body faces for long; a spin or a cross turns it little.
-std::vector<Quat> lasting_facing(const Clip& clip) {
-  std::vector<float> yaw;
-  for (const Pose& pose : clip.frames)
-    yaw.push_back(yaw_of(glm::cross(pose.rotation[0] * kLeft, kUp)));
-  std::vector<Quat> facing;
-  for (const float angle : smoothed(unwrapped(yaw), kFacingSigma))
-    facing.push_back(yaw_rotation(angle));
-  return facing;
-}
-
-Vec3 mean(const std::vector<Vec3>& path) {
-  Vec3 sum{};
-  for (const Vec3& p : path) sum += p;
-  return sum / static_cast<float>(path.size());
-}
-
 }  // namespace
 
 void carry_hands(const Skeleton& skeleton, const std::array<std::vector<Vec3>, 2>& captured,
                  Clip& clip) {
-  const std::vector<Quat> facing = lasting_facing(clip);
-  for (const Side side : {Side::left, Side::right}) {
-    std::vector<Vec3> theirs, ours;
-    for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-      const Quat back = glm::inverse(facing[i]);
-      theirs.push_back(back * captured[static_cast<std::size_t>(side)][i]);
-      ours.push_back(back * wrist_off_hips(world_pose(skeleton, clip.frames[i]), side));
-    }
-    // Least squares of ours = scale x theirs + shift: the captured way in our body's proportions.
-    const Vec3 our_mean = mean(ours), their_mean = mean(theirs);
-    float both = 0, square = 0;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-      both += glm::dot(ours[i] - our_mean, theirs[i] - their_mean);
-      square += glm::length2(theirs[i] - their_mean);
-    }
-    const float scale = square > 1e-6f ? glm::clamp(both / square, kLeastScale, kMostScale) : 1.0f;
-    for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-      Pose& pose = clip.frames[i];
-      const Vec3 moved = our_mean + scale * (theirs[i] - their_mean) - ours[i];
-      const Vec3 wrist = world_pose(skeleton, pose).position[index(arm(side).end)];
-      move_limb_end(skeleton, arm(side), wrist + facing[i] * moved, kSoftShare, pose);
-    }
+  std::array<std::vector<Vec3>, 2> ours;
+  std::vector<float> upright;
+  for (const Pose& pose : clip.frames) {
+    const WorldPose world = world_pose(skeleton, pose);
+    for (std::size_t s = 0; s < 2; ++s)
+      ours[s].push_back(wrist_off_hips(world, s == 0 ? Side::left : Side::right));
+    const Vec3 trunk = world.position[index(Joint::neck)] - world.position[0];
+    upright.push_back(normalized_or(trunk, kUp).y);
   }
+  // Least squares of ours = scale x theirs + lift x up, over both hands: they keep their distance
+  // to each other.
+  float both = 0, square = 0, up = 0, their_up = 0, up_square = 0;
+  for (std::size_t s = 0; s < 2; ++s)
+    for (std::size_t i = 0; i < upright.size(); ++i) {
+      both += glm::dot(ours[s][i], captured[s][i]);
+      square += glm::length2(captured[s][i]);
+      up += ours[s][i].y * upright[i];
+      their_up += captured[s][i].y * upright[i];
+      up_square += upright[i] * upright[i];
+    }
+  const float determinant = square * up_square - their_up * their_up;
+  const float scale =
+      determinant > 1e-3f * square * up_square
+          ? glm::clamp((both * up_square - up * their_up) / determinant, kLeastScale, kMostScale)
+          : 1.0f;
+  const float lift = up_square > 0 ? (up - scale * their_up) / up_square : 0.0f;
+  for (std::size_t i = 0; i < upright.size(); ++i)
+    for (const Side side : {Side::left, Side::right}) {
+      const auto s = static_cast<std::size_t>(side);
+      Pose& pose = clip.frames[i];
+      const Vec3 moved = scale * captured[s][i] + lift * upright[i] * kUp - ours[s][i];
+      const Vec3 wrist = world_pose(skeleton, pose).position[index(arm(side).end)];
+      move_limb_end(skeleton, arm(side), wrist + moved, kSoftShare, pose);
+    }
 }
 
 }  // namespace ringcraft

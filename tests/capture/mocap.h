@@ -49,7 +49,8 @@ struct RetargetMeasures {
     double correlation, spread;  // spread of the source, m
   };
   std::vector<Axis> axes;
-  double source_skate = 0, our_skate = 0;  // shares of time
+  double source_skate = 0, our_skate = 0;          // shares of time
+  double source_knee_jerk = 0, our_knee_jerk = 0;  // largest second difference, deg/tick2
   double worst(double least_spread) const {
     double worst = 1;
     for (const Axis& a : axes)
@@ -57,6 +58,18 @@ struct RetargetMeasures {
     return worst;
   }
 };
+
+inline float knee_bend(Vec3 hip, Vec3 knee, Vec3 ankle) {
+  const float cosine = glm::dot(glm::normalize(hip - knee), glm::normalize(ankle - knee));
+  return degrees(std::acos(glm::clamp(cosine, -1.0f, 1.0f)));
+}
+
+inline double largest_second_difference(const std::vector<float>& values) {
+  float largest = 0;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    largest = std::max(largest, std::abs(values[i + 1] - 2 * values[i] + values[i - 1]));
+  return static_cast<double>(largest);
+}
 
 // The source in our axes, at our body's size.
 inline RetargetMeasures measure(const RawClip& raw, const JointMap& map, const Clip& clip,
@@ -75,6 +88,7 @@ inline RetargetMeasures measure(const RawClip& raw, const JointMap& map, const C
                                      Joint::right_foot};
   std::array<std::vector<double>, 12> ours, theirs;
   std::array<FootPath, 2> feet;
+  std::array<std::vector<float>, 2> our_knees, their_knees;
   std::vector<float> hips;
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     const WorldPose world = world_pose(skeleton, clip.frames[i]);
@@ -93,6 +107,13 @@ inline RetargetMeasures measure(const RawClip& raw, const JointMap& map, const C
             static_cast<double>((source_at(source, ends[e])[axis] - their_hips[axis]) * scale));
       }
     for (const Side side : {Side::left, Side::right}) {
+      const Limb limb = leg(side);
+      our_knees[static_cast<std::size_t>(side)].push_back(
+          knee_bend(world.position[index(limb.root)], world.position[index(limb.middle)],
+                    world.position[index(limb.end)]));
+      their_knees[static_cast<std::size_t>(side)].push_back(
+          knee_bend(source_at(source, limb.root), source_at(source, limb.middle),
+                    source_at(source, limb.end)));
       FootPath& path = feet[static_cast<std::size_t>(side)];
       path.ankle.push_back(source_at(source, leg(side).end) * scale);
       path.toes.push_back(map.source[index(toes(side))] >= 0 ? source_at(source, toes(side)) * scale
@@ -103,6 +124,11 @@ inline RetargetMeasures measure(const RawClip& raw, const JointMap& map, const C
   for (std::size_t at = 0; at < 12; ++at)
     out.axes.push_back({ends[at / 3], static_cast<int>(at % 3), correlation(ours[at], theirs[at]),
                         spread(theirs[at])});
+  for (std::size_t s = 0; s < 2; ++s) {
+    out.our_knee_jerk = std::max(out.our_knee_jerk, largest_second_difference(our_knees[s]));
+    out.source_knee_jerk =
+        std::max(out.source_knee_jerk, largest_second_difference(their_knees[s]));
+  }
   out.source_skate = foot_skate_ratio(feet, hips, kTicksPerSecond);
   out.our_skate = foot_skate_ratio(skeleton, clip.frames, kTicksPerSecond);
   return out;

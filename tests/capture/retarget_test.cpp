@@ -248,6 +248,84 @@ TEST(Retarget, HandsGoTheCapturedWayWhateverTheProportions) {
     }
 }
 
+// The same body, turned by a whole turn: a shift of the hands that turned with it would show.
+TEST(Retarget, HandsGoTheCapturedWayInATurn) {
+  const Skeleton skeleton = canonical_skeleton();
+  Skeleton other = skeleton;
+  for (const Side side : {Side::left, Side::right}) {
+    other.offset[index(arm(side).end)] *= 0.8f;
+    other.offset[index(arm(side).root)].x *= 1.2f;
+  }
+  other.offset[index(Joint::chest)] *= 0.7f;
+  std::vector<Pose> poses = standing_work(skeleton);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(poses.size());
+    poses[i] = placed(poses[i], {0, 0, 2 * kPi * share});
+  }
+  const auto clip = retarget(capture_of(other, poses, {}, 1), own_names(), skeleton);
+  ASSERT_TRUE(clip);
+  for (const Side side : {Side::left, Side::right})
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> ours, theirs;
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        const std::size_t hand = index(arm(side).end);
+        const WorldPose a = world_pose(skeleton, clip->frames[i]);
+        const WorldPose b = world_pose(other, poses[i]);
+        ours.push_back(static_cast<double>(a.position[hand][axis] - a.position[0][axis]));
+        theirs.push_back(static_cast<double>(b.position[hand][axis] - b.position[0][axis]));
+      }
+      EXPECT_GT(testing::correlation(ours, theirs), 0.98) << axis;
+    }
+}
+
+// Feet that stand for half a second each, one after the other, on the plane y = slope . place.
+CapturedFeet walk_on(Vec2 slope, float step) {
+  CapturedFeet feet;
+  for (int k = 0; k < 8; ++k)
+    for (int tick = 0; tick < 60; ++tick) {
+      for (const Side side : {Side::left, Side::right}) {
+        const bool stands = (k % 2 == 0) == (side == Side::left);
+        const float x = side == Side::left ? 0.1f : -0.1f;
+        const float z = step * static_cast<float>(k);
+        const float lift = stands ? 0.0f : 0.2f;
+        feet.ball[static_cast<std::size_t>(side)].emplace_back(
+            x, 0.03f + slope.x * x + slope.y * z + lift, z);
+      }
+      feet.hips.emplace_back(0, 0.9f, 0);
+    }
+  return feet;
+}
+
+TEST(Retarget, ATiltedFloorIsLaidFlat) {
+  const Vec2 slope(0, 0.02f);
+  const CapturedFeet feet = walk_on(slope, 0.6f);
+  const Quat level = floor_level(feet, {});
+  const Vec3 along = level * glm::normalize(Vec3(0, slope.y, 1));
+  EXPECT_NEAR(along.y, 0, 0.001);
+  EXPECT_LT(glm::length(rotation_vector(level)), radians(1.3f));
+}
+
+TEST(Retarget, APersonOnOneSpotSaysNothingAboutTheFloor) {
+  const CapturedFeet feet = walk_on({0, 0.05f}, 0.02f);
+  const Quat level = floor_level(feet, {});
+  EXPECT_LT(glm::length(rotation_vector(level)), radians(0.4f));
+}
+
+TEST(Retarget, AFootThatShiftsInAContactRestsTwice) {
+  std::vector<Vec3> path;
+  for (int i = 0; i < 120; ++i)
+    path.emplace_back(0.03f * glm::smoothstep(50.0f, 70.0f, static_cast<float>(i)), 0, 0);
+  const std::vector<Rest> rests = rests_of(path, 0, path.size());
+  ASSERT_EQ(rests.size(), 2u);
+  EXPECT_NEAR(rests[0].place.x, 0, 0.003);
+  EXPECT_NEAR(rests[1].place.x, 0.03, 0.003);
+  EXPECT_LE(rests[0].end, rests[1].begin);
+  // Steady creeping is no rest.
+  for (std::size_t i = 0; i < path.size(); ++i)
+    path[i].x = 0.1f * kTickSeconds * static_cast<float>(i);
+  EXPECT_TRUE(rests_of(path, 0, path.size()).empty());
+}
+
 TEST(Retarget, ACaptureOfHoursIsRefused) {
   const Skeleton skeleton = canonical_skeleton();
   RawClip raw = capture_of(skeleton, standing_work(skeleton), {}, 1);
