@@ -20,7 +20,6 @@ constexpr Tick kWayOut = 48;          // ticks before the peak in which the way 
 constexpr Tick kToReach = 22;         // ticks after it within which the arm is at full reach
 constexpr Tick kPastReach = 5;        // ticks after the reach in which the arm still opens
 constexpr Tick kOpensFrom = 36;       // ticks before the peak in which the arm is most bent
-constexpr Tick kSpeedOver = 4;        // ticks to both sides over which the way at the peak is taken
 constexpr float kBegins = 0.25f;      // share of the peak speed at which a hand leaves
 constexpr Tick kLongestReturn = 72;   // ticks
 constexpr float kHeadBelow = 0.005f;  // H under the own shoulder that is still a blow to the head

@@ -24,14 +24,13 @@ constexpr Tick kBothHands = 36;  // ticks within which the other hand does the s
 
 bool sweeps_in(const Measures& m, Side side, Tick peak) {
   const std::vector<Vec3>& hand = m.hand[index(side)].from_hips;
-  const float gaze = m.gaze[static_cast<std::size_t>(peak)];
+  const auto here = static_cast<std::size_t>(peak);
+  const float gaze = m.gaze[here];
   const auto outward = [&](Tick t) {
     return seen_along(hand[static_cast<std::size_t>(m.clamped(t))], gaze, side).x;
   };
-  const Vec3 way = normalized_or(seen_along(hand[static_cast<std::size_t>(peak + 1)] -
-                                                hand[static_cast<std::size_t>(peak - 1)],
-                                            gaze, side),
-                                 Vec3(1, 0, 0));
+  const Vec3 way =
+      normalized_or(seen_along(hand[here + 1] - hand[here - 1], gaze, side), Vec3(1, 0, 0));
   float before = outward(peak);
   float after = before;
   for (Tick k = 0; k <= kWay; ++k) {

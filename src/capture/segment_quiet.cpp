@@ -22,7 +22,6 @@ constexpr float kTurn = radians(30);
 constexpr float kSlip = 0.085f;      // H the head leaves the line to one side
 constexpr float kDuck = 0.10f;       // H it sinks
 constexpr float kSway = 0.085f;      // H it goes back
-constexpr float kReturns = 0.5f;     // share of it that is undone at both ends
 constexpr float kHighGuard = 0.20f;  // H from both wrists to the head
 constexpr std::size_t kOfEach = 4;   // pieces kept of one name, those nearest to the guard
 
