@@ -109,7 +109,7 @@ void decide(const BodyModel& body, const ImpactInput& input, const ImpactFrame& 
 Base::Beyond excess_of(const BodyModel& body, const Ragdoll& ragdoll, Part struck,
                        FootContacts planted, const Base& start, Vec3 own) {
   const Vec3 xi = extrapolated_of(body, ragdoll) - own;
-  const Base::Beyond stood = start.beyond(xi);
+  Base::Beyond stood = start.beyond(xi);
   if (zone_of(struck) != TargetZone::leg && struck != Part::pelvis) return stood;
   Base::Beyond stands = standing_base(body, ragdoll, planted).beyond(xi);
   if (struck == Part::left_thigh || struck == Part::right_thigh || struck == Part::pelvis) {
