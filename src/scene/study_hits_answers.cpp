@@ -190,7 +190,6 @@ void seen_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
   }
   rows.held("onset, latest of 12 hits of 20 N s", "ms", 1000 * latest, "one frame of 60 Hz",
             at_most(17));
-  rows.held("the clip is in charge", "ms", 150, "150 ms of doubt", at_most(150));
   std::vector<double> off;
   std::size_t within = 0;
   for (const Answered& a : all) {
