@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "capture/gltf_bind.h"
 #include "capture/gltf_reader.h"
 
 namespace ringcraft {
@@ -15,112 +16,6 @@ namespace {
 constexpr double kRate = 60;            // frames a second
 constexpr double kLongestClip = 1800;   // s
 constexpr float kLargestNumber = 1e7f;  // of a joint's place
-
-// A node's place in the world; `axes` hold scale and shear.
-struct WorldNode {
-  Vec3 position{};
-  Quat rotation{1, 0, 0, 0};
-  glm::mat3 axes{1};
-};
-
-WorldNode below(const WorldNode& parent, const GltfTransform& local) {
-  WorldNode out;
-  out.position = parent.position + parent.axes * local.translation;
-  out.rotation = glm::normalize(parent.rotation * local.rotation);
-  out.axes = parent.axes * glm::mat3_cast(local.rotation);
-  for (int i = 0; i < 3; ++i) out.axes[i] *= local.scale[i];
-  return out;
-}
-
-std::vector<WorldNode> worlds(const GltfFile& gltf, const std::vector<GltfTransform>& local) {
-  std::vector<WorldNode> out(gltf.nodes.size());
-  for (const int i : gltf.order) {
-    const auto node = static_cast<std::size_t>(i);
-    const int parent = gltf.nodes[node].parent;
-    out[node] =
-        below(parent < 0 ? WorldNode{} : out[static_cast<std::size_t>(parent)], local[node]);
-  }
-  return out;
-}
-
-// The rotation among the 24 of a cube's symmetry that is nearest.
-Quat along_axes(const Quat& rotation) {
-  Quat best(1, 0, 0, 0);
-  float best_cosine = -1;
-  for (int x = 0; x < 6; ++x)
-    for (int y = 0; y < 6; ++y) {
-      if (x / 2 == y / 2) continue;
-      glm::mat3 axes(0);
-      axes[0][x / 2] = x % 2 == 0 ? 1.0f : -1.0f;
-      axes[1][y / 2] = y % 2 == 0 ? 1.0f : -1.0f;
-      axes[2] = glm::cross(axes[0], axes[1]);
-      const Quat turn = glm::normalize(glm::quat_cast(axes));
-      const float cosine = std::abs(glm::dot(turn, rotation));
-      if (cosine > best_cosine) {
-        best_cosine = cosine;
-        best = turn;
-      }
-    }
-  return best;
-}
-
-Quat rotation_of(const glm::mat3& axes) {
-  const Vec3 x = normalized_or(axes[0], kLeft);
-  const Vec3 y = normalized_or(axes[1] - x * glm::dot(x, axes[1]), kUp);
-  return glm::normalize(glm::quat_cast(glm::mat3(x, y, glm::cross(x, y))));
-}
-
-// From the space of a skin's mesh to the world, which the file does not say: by the skin's topmost
-// joint, which stands where it was bound. Meshes are bound upright: a turn of that joint in the
-// nodes' rest pose is none of the mesh.
-struct MeshSpace {
-  Vec3 position{};
-  Quat rotation{1, 0, 0, 0};
-  float scale = 1;
-};
-
-MeshSpace mesh_space(const GltfFile& gltf, const std::vector<WorldNode>& rest, int skin) {
-  for (const int i : gltf.order) {
-    const GltfNode& node = gltf.nodes[static_cast<std::size_t>(i)];
-    if (!node.bound || node.skin != skin) continue;
-    const WorldNode& world = rest[static_cast<std::size_t>(i)];
-    const glm::mat3 bind(node.bind);
-    MeshSpace space;
-    space.scale = glm::length(world.axes[1]) / glm::length(bind[1]);
-    space.rotation = along_axes(world.rotation * glm::inverse(rotation_of(bind)));
-    space.position = world.position - space.rotation * (Vec3(node.bind[3]) * space.scale);
-    return space;
-  }
-  return {};
-}
-
-// Where every node stands in the pose that retargeting takes for the rest pose.
-std::vector<WorldNode> bind_pose(const GltfFile& gltf, const std::vector<WorldNode>& rest,
-                                 bool has_vrm_bones) {
-  if (has_vrm_bones) return rest;
-  std::vector<WorldNode> out = rest;
-  std::vector<std::pair<int, MeshSpace>> spaces;
-  for (const int i : gltf.order) {
-    const auto at = static_cast<std::size_t>(i);
-    const GltfNode& node = gltf.nodes[at];
-    if (!node.bound) {
-      if (node.parent >= 0) out[at] = below(out[static_cast<std::size_t>(node.parent)], node.rest);
-      continue;
-    }
-    auto known = std::find_if(spaces.begin(), spaces.end(),
-                              [&](const auto& space) { return space.first == node.skin; });
-    if (known == spaces.end()) {
-      spaces.emplace_back(node.skin, mesh_space(gltf, rest, node.skin));
-      known = spaces.end() - 1;
-    }
-    const MeshSpace& space = known->second;
-    const glm::mat3 bind(node.bind);
-    out[at].position = space.position + space.rotation * (Vec3(node.bind[3]) * space.scale);
-    out[at].rotation = glm::normalize(space.rotation * rotation_of(bind));
-    out[at].axes = glm::mat3_cast(space.rotation) * bind * space.scale;
-  }
-  return out;
-}
 
 // Everything but nodes that only show a mesh.
 std::vector<bool> joints_among(const GltfFile& gltf) {
@@ -180,6 +75,11 @@ class Builder {
       : gltf_(std::move(gltf)), limits_(limits) {
     clip_.file = file;
     clip_.frame_seconds = 1 / kRate;
+  }
+
+  Result<GltfRest> rest() {
+    if (auto ok = skeleton(); !ok) return tl::unexpected(ok.error());
+    return GltfRest{std::move(clip_), std::move(node_of_), std::move(bind_)};
   }
 
   Result<RawClip> build() {
@@ -299,6 +199,11 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Result<GltfRest> rest_of(const GltfFile& gltf, const std::string& file,
+                         const CaptureLimits& limits) {
+  return Builder(gltf, file, limits).rest();
+}
 
 Result<RawClip> parse_gltf(std::string_view bytes, const std::string& file, const std::string& clip,
                            const CaptureLimits& limits) {

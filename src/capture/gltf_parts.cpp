@@ -25,36 +25,6 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-struct Chunks {
-  std::string_view json, binary;
-};
-
-Result<Chunks> chunks_of(std::string_view bytes, const std::string& file) {
-  constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
-  if (!bytes.starts_with("glTF")) return Chunks{bytes, {}};
-  if (bytes.size() < 20 || little_endian(bytes, 4) != 2)
-    return input_error(file, "bytes 0-20", "no header of a binary glTF 2.0 file", kExportAgain);
-  Chunks chunks;
-  std::size_t at = 12;
-  while (bytes.size() - at >= 8) {
-    const std::size_t length = little_endian(bytes, at);
-    const std::uint32_t kind = little_endian(bytes, at + 4);
-    if (length > bytes.size() - at - 8)
-      return input_error(file, fmt::format("byte {}", at),
-                         fmt::format("a chunk of {} bytes runs beyond the file's end", length),
-                         "the file is cut off: fetch it again");
-    const std::string_view chunk = bytes.substr(at + 8, length);
-    if (at == 12 && kind != kJson)
-      return input_error(file, "byte 16", "the first chunk is not JSON", kExportAgain);
-    if (at == 12)
-      chunks.json = chunk;
-    else if (kind == kBinary && chunks.binary.empty())
-      chunks.binary = chunk;
-    at += 8 + length;
-  }
-  return chunks;
-}
-
 // Keys that are kept, at the top and below.
 bool kept(int depth, const std::string& key) {
   static constexpr std::array<std::string_view, 9> kTop = {
@@ -128,8 +98,34 @@ void find_bones(const Json& extensions, GltfParts& out) {
 
 }  // namespace
 
+Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file) {
+  constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
+  if (!bytes.starts_with("glTF")) return GltfChunks{bytes, {}};
+  if (bytes.size() < 20 || little_endian(bytes, 4) != 2)
+    return input_error(file, "bytes 0-20", "no header of a binary glTF 2.0 file", kExportAgain);
+  GltfChunks chunks;
+  std::size_t at = 12;
+  while (bytes.size() - at >= 8) {
+    const std::size_t length = little_endian(bytes, at);
+    const std::uint32_t kind = little_endian(bytes, at + 4);
+    if (length > bytes.size() - at - 8)
+      return input_error(file, fmt::format("byte {}", at),
+                         fmt::format("a chunk of {} bytes runs beyond the file's end", length),
+                         "the file is cut off: fetch it again");
+    const std::string_view chunk = bytes.substr(at + 8, length);
+    if (at == 12 && kind != kJson)
+      return input_error(file, "byte 16", "the first chunk is not JSON", kExportAgain);
+    if (at == 12)
+      chunks.json = chunk;
+    else if (kind == kBinary && chunks.binary.empty())
+      chunks.binary = chunk;
+    at += 8 + length;
+  }
+  return chunks;
+}
+
 Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file) {
-  auto chunks = chunks_of(bytes, file);
+  auto chunks = gltf_chunks(bytes, file);
   if (!chunks) return tl::unexpected(chunks.error());
   auto json = motion_json(chunks->json, file);
   if (!json) return tl::unexpected(json.error());

@@ -17,6 +17,12 @@ struct GltfParts {
   std::vector<std::pair<std::string, int>> bones;
 };
 
+struct GltfChunks {
+  std::string_view json, binary;
+};
+// A .gltf is one chunk of JSON.
+Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file);
+
 // `file` is only for messages. JSON nests 32 deep at most.
 Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file);
 

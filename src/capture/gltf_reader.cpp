@@ -70,7 +70,8 @@ class Reader {
  public:
   Reader(const std::string& file, const CaptureLimits& limits) : file_(file), limits_(limits) {}
 
-  Result<GltfFile> read(const GltfParts& parts, const std::string& clip,
+  // Without a name for a clip: the skeleton alone.
+  Result<GltfFile> read(const GltfParts& parts, const std::optional<std::string>& clip,
                         std::filesystem::path folder) {
     if (auto ok = load(parts, std::move(folder)); !ok) return tl::unexpected(ok.error());
     if (auto ok = nodes(); !ok) return tl::unexpected(ok.error());
@@ -79,7 +80,8 @@ class Reader {
     for (const auto& [bone, node] : parts.bones)
       if (static_cast<std::size_t>(node) < out_.nodes.size())
         out_.nodes[static_cast<std::size_t>(node)].bone = bone;
-    if (auto ok = animation(clip); !ok) return tl::unexpected(ok.error());
+    if (!clip) return std::move(out_);
+    if (auto ok = animation(*clip); !ok) return tl::unexpected(ok.error());
     return std::move(out_);
   }
 
@@ -436,6 +438,13 @@ Result<GltfFile> read_gltf_parts(std::string_view bytes, const std::string& file
   auto parts = gltf_parts(bytes, file);
   if (!parts) return tl::unexpected(parts.error());
   return Reader(file, limits).read(*parts, clip, folder);
+}
+
+Result<GltfFile> read_gltf_skeleton(std::string_view bytes, const std::string& file,
+                                    const CaptureLimits& limits) {
+  auto parts = gltf_parts(bytes, file);
+  if (!parts) return tl::unexpected(parts.error());
+  return Reader(file, limits).read(*parts, std::nullopt, {});
 }
 
 }  // namespace ringcraft

@@ -62,4 +62,8 @@ Result<GltfFile> read_gltf_parts(std::string_view bytes, const std::string& file
                                  const std::string& clip, const std::filesystem::path& folder,
                                  const CaptureLimits& limits);
 
+// Nodes and skins alone, whether or not anything moves them; buffers must lie in the file.
+Result<GltfFile> read_gltf_skeleton(std::string_view bytes, const std::string& file,
+                                    const CaptureLimits& limits);
+
 }  // namespace ringcraft

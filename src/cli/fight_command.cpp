@@ -1,16 +1,45 @@
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "base/file.h"
+#include "capture/character.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
 #include "scene/fight.h"
 #include "scene/fight_files.h"
 
 namespace ringcraft {
+
+namespace {
+
+// The characters that the scene names, each file read once; null where a fighter has none.
+Result<std::vector<std::shared_ptr<const Character>>> characters_of(const SceneFile& scene) {
+  std::vector<std::shared_ptr<const Character>> characters;
+  std::map<std::filesystem::path, std::shared_ptr<const Character>> known;
+  for (const SceneFighter& fighter : scene.fighters) {
+    if (fighter.character.empty()) {
+      characters.push_back(nullptr);
+      continue;
+    }
+    std::shared_ptr<const Character>& kept = known[fighter.character];
+    if (!kept) {
+      auto character = read_character(fighter.character);
+      if (!character) return tl::unexpected(character.error());
+      for (const std::string& note : character->notes)
+        spdlog::info("{}: {}", character->file, note);
+      kept = std::make_shared<const Character>(std::move(*character));
+    }
+    characters.push_back(kept);
+  }
+  return characters;
+}
+
+}  // namespace
 
 int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
               const CommonOptions& options) {
@@ -22,6 +51,8 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
                                            ? std::filesystem::path("out") / scene->name
                                            : std::filesystem::path(options.out);
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto characters = characters_of(*scene);
+  if (!characters) return fail(characters.error());
   const auto library = load_library(scene->library);
   if (!library) return fail(library.error());
 
@@ -45,7 +76,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const auto wants = [&](std::string_view format) {
     return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
   };
-  const FightExtras extras{wants("bvh"), wants("vrma"), fight.root_motion};
+  const FightExtras extras{wants("bvh"), wants("vrma"), fight.root_motion, *characters};
   const auto summary =
       write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());

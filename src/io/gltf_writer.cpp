@@ -55,6 +55,11 @@ struct Format {
 };
 constexpr Format kVertexVec3{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
                              TINYGLTF_TARGET_ARRAY_BUFFER, false};
+constexpr Format kVertexVec2{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2,
+                             TINYGLTF_TARGET_ARRAY_BUFFER, false};
+constexpr Format kVertexVec4{TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4,
+                             TINYGLTF_TARGET_ARRAY_BUFFER, false};
+constexpr Format kPicture{TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR, 0, false};
 constexpr Format kIndices{TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                           TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false};
 constexpr Format kShortIndices{TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
@@ -107,6 +112,10 @@ class GlbBuilder {
   int single_time();
   int add_material(const std::string& name, Vec3 colour, double roughness);
   int add_mesh(const std::string& name, const FighterLook& look);
+  int add_character(const std::string& name, const Character& character, const Skeleton& skeleton);
+  int add_character_material(const std::string& name, const Character& character,
+                             std::size_t number);
+  int add_texture(const CharacterImage& image);
   std::array<int, kJointCount> add_skeleton(const Skeleton& skeleton);
   int add_skin(const Skeleton& skeleton, const std::array<int, kJointCount>& nodes);
   void add_channel(int node, const char* path, int input, int output);
@@ -205,7 +214,75 @@ Finish finish_of(const FighterLook& look, Region region) {
   return {};
 }
 
+// PNG or JPEG, as it came.
+int GlbBuilder::add_texture(const CharacterImage& image) {
+  tinygltf::Image out;
+  out.bufferView =
+      model_
+          .accessors[add_data(std::vector<char>(image.bytes.begin(), image.bytes.end()), kPicture)]
+          .bufferView;
+  model_.accessors.pop_back();  // a picture is a view without an accessor
+  out.mimeType = image.mime_type;
+  model_.images.push_back(std::move(out));
+  tinygltf::Texture texture;
+  texture.source = static_cast<int>(model_.images.size()) - 1;
+  model_.textures.push_back(std::move(texture));
+  return static_cast<int>(model_.textures.size()) - 1;
+}
+
+int GlbBuilder::add_character_material(const std::string& name, const Character& character,
+                                       std::size_t number) {
+  const CharacterMaterial& from = character.materials.at(number);
+  tinygltf::Material material;
+  material.name = name + "_" + clean(from.name);
+  auto& surface = material.pbrMetallicRoughness;
+  surface.baseColorFactor.clear();
+  for (const float value : from.colour) surface.baseColorFactor.push_back(rounded(value, 5));
+  surface.metallicFactor = rounded(from.metallic, 4);
+  surface.roughnessFactor = rounded(from.roughness, 4);
+  if (from.image) surface.baseColorTexture.index = add_texture(character.images.at(*from.image));
+  material.doubleSided = from.double_sided;
+  material.alphaMode = from.alpha_mode;
+  if (from.alpha_mode == "MASK") material.alphaCutoff = rounded(from.alpha_cutoff, 4);
+  model_.materials.push_back(std::move(material));
+  return static_cast<int>(model_.materials.size()) - 1;
+}
+
+int GlbBuilder::add_character(const std::string& name, const Character& character,
+                              const Skeleton& skeleton) {
+  tinygltf::Mesh mesh;
+  mesh.name = name;
+  std::vector<int> materials(character.materials.size(), -1);
+  for (const CharacterPiece& piece : conformed(character, skeleton)) {
+    std::vector<std::array<std::uint8_t, 4>> joints;
+    std::vector<std::array<float, 4>> shares;
+    for (const CharacterWeights& weights : piece.weights) {
+      std::array<std::uint8_t, 4> joint{};
+      for (std::size_t k = 0; k < 4; ++k)
+        if (weights.share.at(k) > 0) joint.at(k) = static_cast<std::uint8_t>(weights.joint.at(k));
+      joints.push_back(joint);
+      shares.push_back(weights.share);
+    }
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = add_data(piece.position, kVertexVec3, true);
+    primitive.attributes["NORMAL"] = add_data(piece.normal, kVertexVec3);
+    if (!piece.uv.empty() && character.materials.at(piece.material).image)
+      primitive.attributes["TEXCOORD_0"] = add_data(piece.uv, kVertexVec2);
+    primitive.attributes["JOINTS_0"] = add_data(joints, kJoints);
+    primitive.attributes["WEIGHTS_0"] = add_data(shares, kVertexVec4);
+    primitive.indices = add_indices(piece.triangles, piece.position.size());
+    int& material = materials.at(piece.material);
+    if (material < 0) material = add_character_material(name, character, piece.material);
+    primitive.material = material;
+    mesh.primitives.push_back(std::move(primitive));
+  }
+  model_.meshes.push_back(std::move(mesh));
+  return static_cast<int>(model_.meshes.size()) - 1;
+}
+
 int GlbBuilder::add_mesh(const std::string& name, const FighterLook& look) {
+  if (look.character) return add_character(name, *look.character, look.body.skeleton);
   const auto mannequin = mannequin_of(look.body);
   tinygltf::Mesh mesh;
   mesh.name = name;

@@ -1,6 +1,7 @@
 #pragma once
 // What comes out of a fight: fight.glb, events.jsonl, report.json, timing.json, fight.html.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "fight/timeline.h"
+#include "motion/character.h"
 #include "physics/body.h"
 
 namespace ringcraft {
@@ -19,6 +21,8 @@ struct FighterLook {
   Vec3 shorts{0.42f, 0.014f, 0.018f};  // linear RGB
   Vec3 gloves{0.42f, 0.014f, 0.018f};
   Vec3 skin{0.46f, 0.26f, 0.175f};
+  std::shared_ptr<const Character> character =
+      nullptr;  // shown in place of the mannequin; may be null
 };
 
 struct GlbSettings {

@@ -13,11 +13,13 @@ namespace ringcraft {
 
 namespace {
 
-std::vector<FighterLook> looks_of(const SceneFile& scene, const FightRecord& record) {
+std::vector<FighterLook> looks_of(const SceneFile& scene, const FightRecord& record,
+                                  const FightExtras& extras) {
   std::vector<FighterLook> looks;
   for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
     const SceneFighter& fighter = scene.fighters[i];
-    looks.push_back({fighter.name, record.bodies[i], fighter.shorts, fighter.gloves, fighter.skin});
+    looks.push_back({fighter.name, record.bodies[i], fighter.shorts, fighter.gloves, fighter.skin,
+                     i < extras.characters.size() ? extras.characters[i] : nullptr});
   }
   return looks;
 }
@@ -67,7 +69,7 @@ std::string text_of(const nlohmann::json& report, const std::filesystem::path& p
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
                                  double wall_seconds, int threads, const FightExtras& extras) {
-  const std::vector<FighterLook> looks = looks_of(scene, record);
+  const std::vector<FighterLook> looks = looks_of(scene, record, extras);
   const nlohmann::json report =
       report_json(record.timeline, looks, library, facts_of(scene, record));
   const std::string glb = fight_glb(record.timeline, looks, {scene.ring / 2, extras.root_motion});

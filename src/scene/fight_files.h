@@ -2,8 +2,11 @@
 // The files of a fight: fight.glb, events.jsonl, report.json, timing.json, fight.html.
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "motion/character.h"
 #include "scene/fight.h"
 
 namespace ringcraft {
@@ -13,6 +16,9 @@ struct FightExtras {
   bool bvh = false;          // fighter0.bvh ...: one a fighter
   bool vrma = false;         // fighter0.vrma ...: VRM animations, one a fighter
   bool root_motion = false;  // fight.glb moves each fighter's own node over the ground
+  // Of each fighter, in place of the mannequin; shorter than the fighters or null where it has
+  // none.
+  std::vector<std::shared_ptr<const Character>> characters = {};
 };
 
 struct FightSummary {

@@ -152,6 +152,9 @@ class Reader {
     fighter.placement.x = given["position"][0].get<float>();
     fighter.placement.z = given["position"][1].get<float>();
     fighter.health = static_cast<std::int32_t>(std::lround(given.value("health", 100.0) * 1000.0));
+    if (given.contains("character"))
+      fighter.character =
+          document_.path.parent_path() / fs::path(given["character"].get<std::string>());
     if (given.contains("shorts")) fighter.shorts = colour_of(given["shorts"]);
     if (given.contains("gloves")) fighter.gloves = colour_of(given["gloves"]);
     if (given.contains("skin")) fighter.skin = colour_of(given["skin"]);

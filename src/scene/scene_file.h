@@ -17,11 +17,12 @@ namespace ringcraft {
 struct SceneFighter {
   std::string name;
   BodySpec body;
-  Style style;                    // with the scene's horizon where it gives one
-  int team = 0;                   // fighters of one team do not fight each other
-  Placement placement;            // of the root at tick 0, world
-  std::int32_t health = 100'000;  // thousandths of a point
-  Vec3 shorts{0.7f, 0.1f, 0.1f};  // linear RGB, as in FighterLook
+  Style style;                      // with the scene's horizon where it gives one
+  int team = 0;                     // fighters of one team do not fight each other
+  Placement placement;              // of the root at tick 0, world
+  std::int32_t health = 100'000;    // thousandths of a point
+  std::filesystem::path character;  // shown in place of the mannequin; empty for none
+  Vec3 shorts{0.7f, 0.1f, 0.1f};    // linear RGB, as in FighterLook
   Vec3 gloves{0.7f, 0.1f, 0.1f};
   Vec3 skin{0.55f, 0.36f, 0.26f};
 };

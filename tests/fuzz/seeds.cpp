@@ -44,10 +44,22 @@ int main(int count, char** arguments) {
   for (const std::size_t i : {0, 5, 10, 15, 16, 21, 26, 31}) matrices[i] = 1;
   skinned.json["skins"] = {
       {{"joints", {0, 1}}, {"inverseBindMatrices", skinned.add(matrices, "MAT4", 16)}}};
+  GltfDraft shown = skinned;
+  shown.json["nodes"][2]["mesh"] = 0;
+  shown.json["nodes"][2]["skin"] = 0;
+  shown.json["materials"] = {{{"name", "cloth"}, {"alphaMode", "MASK"}}};
+  shown.json["meshes"] = {
+      {{"primitives",
+        {{{"attributes",
+           {{"POSITION", shown.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3)},
+            {"JOINTS_0", shown.add({0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4)},
+            {"WEIGHTS_0", shown.add({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4)}}},
+          {"material", 0}}}}}};
   const bool written = write(folder / "bvh/small.bvh", small_bvh()) &&
                        write(folder / "acclaim/small", small_asf() + '\0' + small_amc()) &&
                        write(folder / "gltf/small.glb", small_gltf().glb()) &&
                        write(folder / "gltf/skinned.glb", skinned.glb()) &&
+                       write(folder / "looks/skinned.glb", shown.glb()) &&
                        write_documents(folder / "document");
   return written ? 0 : 1;
 }

@@ -298,5 +298,55 @@ TEST(GlbRootMotion, MovesTheFightersNodeAndLeavesTheBodyWhereItIs) {
   EXPECT_GT(travelled, 0.01f);
 }
 
+TEST(GlbCharacter, StandsInPlaceOfTheMannequinOnTheCanonicalBones) {
+  auto character = std::make_shared<Character>();
+  const Skeleton skeleton = canonical_skeleton();
+  const WorldPose rest = world_pose(skeleton, rest_pose(skeleton));
+  CharacterPiece piece;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    character->joint.at(j) = rest.position[j];
+    for (int corner = 0; corner < 3; ++corner) {
+      piece.position.push_back(rest.position[j] + Vec3(0, 0, 0.01f * static_cast<float>(corner)));
+      piece.normal.push_back(kForward);
+      piece.uv.emplace_back(0.5f, 0.5f);
+      piece.triangles.push_back(static_cast<std::uint32_t>(piece.triangles.size()));
+      piece.weights.push_back({{joint_at(j)}, {1, 0, 0, 0}});
+    }
+  }
+  character->pieces = {piece};
+  CharacterMaterial cloth;
+  cloth.name = "cloth";
+  cloth.image = 0;
+  character->materials = {cloth};
+  character->images = {{"image/png", "bytes of a picture"}};
+  std::vector<FighterLook> looks = sample::looks();
+  looks[0].character = character;
+  tinygltf::Model model;
+  std::string warnings, errors;
+  tinygltf::TinyGLTF reader;
+  std::string picture;
+  reader.SetImageLoader(
+      [](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char* bytes,
+         int size, void* out) {
+        static_cast<std::string*>(out)->assign(reinterpret_cast<const char*>(bytes),
+                                               static_cast<std::size_t>(size));
+        return true;
+      },
+      &picture);
+  const std::string bytes = fight_glb(sample::timeline(), looks);
+  ASSERT_TRUE(reader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                          reinterpret_cast<const unsigned char*>(bytes.data()),
+                                          static_cast<unsigned int>(bytes.size())))
+      << errors;
+  EXPECT_EQ(picture, "bytes of a picture");
+  ASSERT_EQ(model.meshes.at(0).primitives.size(), 1u);
+  const tinygltf::Primitive& shown = model.meshes[0].primitives[0];
+  EXPECT_EQ(model.accessors.at(shown.attributes.at("POSITION")).count, 3 * kJointCount);
+  EXPECT_EQ(model.materials.at(shown.material).name, "fighter0_cloth");
+  EXPECT_EQ(model.skins.at(0).joints.size(), kJointCount);
+  EXPECT_EQ(model.nodes.at(model.skins[0].joints[0]).name, "hips");
+  EXPECT_GT(model.meshes.at(1).primitives.size(), 1u);  // the other is a mannequin still
+}
+
 }  // namespace
 }  // namespace ringcraft
