@@ -155,7 +155,8 @@ void add_clip(const fs::path& path, const std::string& clip_name, Collection& ou
   Segmentation found = segment(out.skeleton, *clip, name);
   for (const std::string& note : found.notes) out.note(file + ": " + note);
   note_blows(file, found, out);
-  std::string source = path.filename().string() + (clip_name.empty() ? "" : " " + clip_name);
+  std::string source = path.filename().string();
+  if (!clip_name.empty()) source.append(" ").append(clip_name);
   if (found.southpaw) {
     out.note(fmt::format("{}: southpaw; what follows is mirrored", file));
     source += ", southpaw mirrored,";

@@ -280,6 +280,8 @@ TEST(GlbRootMotion, MovesTheFightersNodeAndLeavesTheBodyWhereItIs) {
     }
     return values;
   };
+  const Timeline timeline = sample::timeline();
+  const FighterTrack& track = timeline.tracks[0];
   const std::vector<float> places = keys("fighter0", "translation");
   const std::vector<float> turns = keys("fighter0", "rotation");
   const std::vector<float> hips = keys("hips", "translation");
@@ -290,7 +292,6 @@ TEST(GlbRootMotion, MovesTheFightersNodeAndLeavesTheBodyWhereItIs) {
     const Quat turn(turns[4 * k + 3], turns[4 * k], turns[4 * k + 1], turns[4 * k + 2]);
     const Vec3 at = Vec3(places[3 * k], places[3 * k + 1], places[3 * k + 2]) +
                     turn * Vec3(hips[3 * k], hips[3 * k + 1], hips[3 * k + 2]);
-    const FighterTrack& track = sample::timeline().tracks[0];
     const Vec3 shown = track.frames[std::min(2 * k, track.frames.size() - 1)].hips;
     EXPECT_LT(glm::distance(at, shown), 1e-4f) << k;
     travelled = std::max(travelled, glm::length(Vec3(places[3 * k], 0, places[3 * k + 2])));
