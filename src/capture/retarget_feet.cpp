@@ -158,6 +158,7 @@ void turn_feet(const Skeleton& skeleton, Side side, FootTrack& track) {
   for (std::size_t i = 0; i < count; ++i) {
     const Quat turn = rotation_between(track.foot[i] * flat, track.ball[i] - track.ankle[i]);
     track.foot[i] = glm::normalize(turn * track.foot[i]);
+    track.toe[i] = glm::normalize(turn * track.toe[i]);
     ankle[i] = track.ball[i].y - (track.foot[i] * flat).y;
     const float above = track.ball[i].y - skeleton.toe_height();
     share[i] = share_laid(skeleton, flat, track.foot[i], ankle[i]) *
@@ -220,7 +221,10 @@ void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSe
   for (std::size_t i = 0; i < count; ++i) {
     const float above = track.ball[i].y - skeleton.toe_height();
     const float share = 1 - glm::smoothstep(0.0f, kNearFloor, above);
-    const Quat laid = yaw_rotation(yaw_of(track.foot[i] * kForward));
+    // Toes bend up and down; a foot on its edge keeps them there.
+    const Vec3 points = track.foot[i] * kForward;
+    const Quat laid =
+        rotation_between(points, yaw_rotation(yaw_of(points)) * kForward) * track.foot[i];
     track.toe[i] = glm::slerp(track.toe[i], in_hemisphere_of(laid, track.toe[i]), share);
   }
 }

@@ -313,6 +313,7 @@ TEST(Retarget, APersonOnOneSpotSaysNothingAboutTheFloor) {
 
 TEST(Retarget, AFootThatShiftsInAContactRestsTwice) {
   std::vector<Vec3> path;
+  path.reserve(120);
   for (int i = 0; i < 120; ++i)
     path.emplace_back(0.03f * glm::smoothstep(50.0f, 70.0f, static_cast<float>(i)), 0, 0);
   const std::vector<Rest> rests = rests_of(path, 0, path.size());
