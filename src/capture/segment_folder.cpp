@@ -151,7 +151,7 @@ void add_clip(const fs::path& path, const std::string& clip_name, Collection& ou
   }
   if (clip->length() <= kKeptForComparison) out.seen.emplace_back(file, *clip);
   std::string name = path.stem().string();
-  if (!clip_name.empty()) name += "_" + clip_name.substr(clip_name.rfind('|') + 1);
+  if (!clip_name.empty()) name.append("_").append(clip_name.substr(clip_name.rfind('|') + 1));
   Segmentation found = segment(out.skeleton, *clip, name);
   for (const std::string& note : found.notes) out.note(file + ": " + note);
   note_blows(file, found, out);

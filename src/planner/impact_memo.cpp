@@ -210,7 +210,7 @@ ImpactAnswer ImpactMemo::kept(const ImpulseSteps& steps) const {
   if (store_ == nullptr) return answer_of(steps);
   const Key key{steps.key(), worlds_[static_cast<std::size_t>(steps.victim)]};
   if (const auto found = store_->find(key)) return *found;
-  const ImpactAnswer answer = answer_of(steps);
+  ImpactAnswer answer = answer_of(steps);
   store_->add(key, answer);
   return answer;
 }

@@ -10,7 +10,7 @@ namespace ringcraft {
 
 // Two moments are alike where the joints, seen from the root, are on the average no farther apart,
 // now and 100 ms on, and the same feet carry. m rms
-inline constexpr float kAlike = 0.06f;
+inline constexpr float kAlike = 0.03f;
 
 struct PoseMoment {
   ActionId action;

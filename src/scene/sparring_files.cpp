@@ -26,7 +26,7 @@ std::vector<ActionId> attacks_of(std::span<const Action> actions,
                                  const OffenseDefenseTable& table) {
   std::vector<ActionId> attacks;
   for (std::size_t i = 0; i < actions.size(); ++i)
-    if (!table.against(ActionId(i)).empty()) attacks.push_back(ActionId(i));
+    if (!table.against(ActionId(i)).empty()) attacks.emplace_back(i);
   return attacks;
 }
 

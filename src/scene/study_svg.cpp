@@ -172,7 +172,8 @@ class Panel {
     if (one.name.empty()) return out;
     const double across = (kPanel - kLeft - kRight) / 3;
     const double x = left_ + kLeft + static_cast<double>(i % 3) * across;
-    const double y = top_ + 32 + static_cast<double>(i / 3) * kLegendLine;
+    const auto row = i / 3;
+    const double y = top_ + 32 + static_cast<double>(row) * kLegendLine;
     return out + fmt::format(
                      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\"/>"
                      "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
@@ -205,7 +206,8 @@ std::string study_svg(const Study& study) {
       width, height, kGap, escaped(study.title));
   for (std::size_t i = 0; i < study.charts.size(); ++i) {
     const double left = kGap + static_cast<double>(i % across) * (kPanel + kGap);
-    const double top = kTitleHeight + static_cast<double>(i / across) * (kPanelHeight + kGap);
+    const auto row = i / across;
+    const double top = kTitleHeight + static_cast<double>(row) * (kPanelHeight + kGap);
     out += Panel(study.charts[i], left, top).svg();
   }
   return out + "</svg>\n";
