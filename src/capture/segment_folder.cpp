@@ -153,7 +153,7 @@ void add_clip(const fs::path& path, const std::string& clip_name, Collection& ou
   std::string name = path.stem().string();
   if (!clip_name.empty()) name.append("_").append(clip_name.substr(clip_name.rfind('|') + 1));
   Segmentation found = segment(out.skeleton, *clip, name);
-  for (const std::string& note : found.notes) out.note(file + ": " + note);
+  for (const std::string& note : found.notes) out.note(fmt::format("{}: {}", file, note));
   note_blows(file, found, out);
   std::string source = path.filename().string();
   if (!clip_name.empty()) source.append(" ").append(clip_name);

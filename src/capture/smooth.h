@@ -1,4 +1,0 @@
-#pragma once
-// Moved: smoothing belongs to motion.
-
-#include "motion/smooth.h"  // IWYU pragma: export
