@@ -68,11 +68,10 @@ void draw_figure(const Skeleton& skeleton, const Action& action, Tick tick, bool
     return a.from.z + a.to.z < b.from.z + b.to.z;
   });
   const auto line = [&](const Stroke& s, float width, const char* colour) {
-    svg += fmt::format(
-        "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}' "
-        "stroke-width='{:.1f}'/>\n",
-        x + s.from.x * scale, floor - s.from.y * scale, x + s.to.x * scale + 0.01f,
-        floor - s.to.y * scale, colour, width * scale);
+    svg +=
+        fmt::format("<path d='M{:.1f} {:.1f}L{:.1f} {:.1f}' stroke='{}' stroke-width='{:.0f}'/>\n",
+                    x + s.from.x * scale, floor - s.from.y * scale, x + s.to.x * scale + 0.05f,
+                    floor - s.to.y * scale, colour, width * scale);
   };
   for (const Stroke& stroke : strokes) {
     line(stroke, stroke.width + 0.025f, "#ffffff");

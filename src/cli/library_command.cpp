@@ -3,76 +3,28 @@
 
 #include "base/file.h"
 #include "capture/bvh.h"
-#include "capture/filmstrip.h"
 #include "capture/library_file.h"
 #include "capture/profile.h"
 #include "capture/retarget.h"
 #include "cli/commands.h"
+#include "cli/library_page.h"
 #include "scene/library_check.h"
+#include "scene/sparring.h"
 
 namespace ringcraft {
 
 namespace {
 
-constexpr const char* kPage =
-    "<!doctype html><meta charset=\"utf-8\"><title>Motion library {0}</title>\n"
-    "<style>body{{font:14px system-ui;margin:2em}}table{{border-collapse:collapse}}"
-    "td,th{{padding:.2em .7em;border-bottom:1px solid #ccc;text-align:right}}"
-    "td:first-child,td:last-child,th:first-child{{text-align:left}}</style>\n"
-    "<h1>Motion library {0}</h1><p>{1} actions: {2} attacks, {3} combinations, {4} defenses, "
-    "{5} transitions, {6} idles, {7} responses, {8} get-ups</p>\n"
-    "<table><tr><th>action<th>kind<th>s<th>hits from s<th>peak m/s<th>travel m<th>turn deg"
-    "<th>foot skate<th>leads to<th>source</tr>\n{9}</table>\n{10}\n";
-
-std::string table_rows(const MotionLibrary& library) {
-  std::string rows;
-  for (const ActionMeasures& m : measure(library)) {
-    rows += fmt::format(
-        "<tr><td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.1f}<td>{:.2f}<td>{:.0f}<td>{:.3f}<td>{}<td>{}</"
-        "tr>\n",
-        m.name, name_of(m.kind), m.seconds, m.strike_begin_s, m.peak_speed_mps, m.travel_m,
-        degrees(static_cast<float>(m.turn_rad)), m.foot_skate, m.leads_to, m.source);
-  }
-  return rows;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-std::string list_of(const char* title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return "";
-  std::string list = fmt::format("<h2>{}</h2><ul>\n", title);
-  for (const std::string& line : lines) list += fmt::format("<li>{}\n", escaped(line));
-  return list + "</ul>\n";
-}
-
-// What the builder found: the graph in figures, what it dropped, and on what evidence actions
-// stand.
-std::string builders_words(const MotionLibrary& library) {
-  const MotionGraph& graph = library.graph();
-  std::string text;
-  if (!graph.clips.empty()) {
-    std::size_t connecting = 0;
-    for (const Action& action : library.actions()) connecting += action.connects ? 1u : 0u;
-    text = fmt::format(
-        "<h2>Motion graph</h2><p>{} transitions between {} clips, of {} local minima under the "
-        "thresholds, {} of them outside of the largest strongly connected component; {} short ways "
-        "through it connect actions.</p>\n",
-        graph.transitions.size(), graph.clips.size(), graph.minima, graph.dropped, connecting);
-  }
-  return text + list_of("Dropped", library.dropped()) +
-         list_of("Notes and evidence", library.notes());
+// Who attacks whom with what works best, by sparring of two bodies of the library's size.
+OffenseDefenseTable table_of(const MotionLibrary& library, const CommonOptions& options) {
+  BodySpec spec;
+  spec.height = kCanonicalHeight;
+  const BodyModel body = make_body(spec);
+  const MotionTables tables(library, body);
+  SparringSettings settings;
+  settings.threads = options.threads;
+  settings.interrupted = &interrupted;
+  return OffenseDefenseTable(spar(tables, tables, settings).records);
 }
 
 }  // namespace
@@ -99,12 +51,8 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
   }
   const std::filesystem::path folder = options.out.empty() ? "out/library" : options.out;
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
-  const std::string page =
-      fmt::format(kPage, library->name(), library->actions().size(), library->count(Kind::attack),
-                  library->count(Kind::combination), library->count(Kind::defense),
-                  library->count(Kind::transition), library->count(Kind::idle),
-                  library->count(Kind::response), library->count(Kind::get_up),
-                  table_rows(*library), builders_words(*library) + filmstrip_svg(*library));
+  const std::string page = library_page(*library, table_of(*library, options));
+  if (interrupted) return 130;
   const std::filesystem::path file = folder / "library.html";
   if (const auto written = write_file(file, page); !written) return fail(written.error());
   fmt::print("{} actions; open {}\n", library->actions().size(), file.string());

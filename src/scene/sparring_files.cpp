@@ -17,10 +17,12 @@ constexpr const char* kPage =
     "<style>body{{font:13px system-ui;margin:2em}}table{{border-collapse:collapse}}"
     "td,th{{padding:.15em .5em;border:1px solid #ddd;text-align:right}}"
     "th{{font-weight:500;text-align:left}}thead th{{writing-mode:vertical-rl}}</style>\n"
-    "<h1>Offense/defense table of {0}</h1>\n"
+    "<h1>Offense/defense table of {0}</h1>\n{1}";
+
+constexpr const char* kTable =
     "<p>Share of launches that kept the blow from landing clean, in percent, at the defense's best "
     "launch offset; below it that offset in ms after the attack's launch.</p>\n"
-    "<table><thead><tr><th>attack{1}</tr></thead><tbody>\n{2}</tbody></table>\n";
+    "<table class='exchanges'><thead><tr><th>attack{0}</tr></thead><tbody>\n{1}</tbody></table>\n";
 
 std::vector<ActionId> attacks_of(std::span<const Action> actions,
                                  const OffenseDefenseTable& table) {
@@ -89,8 +91,7 @@ std::string table_json(const std::string& name, std::span<const Action> actions,
   return nlohmann::json{{"library", name}, {"attacks", std::move(attacks)}}.dump(1) + "\n";
 }
 
-std::string table_page(const std::string& name, std::span<const Action> actions,
-                       const OffenseDefenseTable& table) {
+std::string table_html(std::span<const Action> actions, const OffenseDefenseTable& table) {
   const std::vector<ActionId> defenses = defenses_of(actions, table);
   std::string head, rows;
   for (const ActionId id : defenses) head += "<th>" + actions[id.at()].name;
@@ -109,7 +110,12 @@ std::string table_page(const std::string& name, std::span<const Action> actions,
     }
     rows += "</tr>\n";
   }
-  return fmt::format(kPage, name, head, rows);
+  return fmt::format(kTable, head, rows);
+}
+
+std::string table_page(const std::string& name, std::span<const Action> actions,
+                       const OffenseDefenseTable& table) {
+  return fmt::format(kPage, name, table_html(actions, table));
 }
 
 std::string table_text(std::span<const Action> actions, const OffenseDefenseTable& table) {

@@ -22,6 +22,9 @@ std::string table_json(const std::string& name, std::span<const Action> actions,
 std::string table_page(const std::string& name, std::span<const Action> actions,
                        const OffenseDefenseTable& table);
 
+// The table of that page alone, with what it says.
+std::string table_html(std::span<const Action> actions, const OffenseDefenseTable& table);
+
 // A line for each kind of blow: the defenses that are surest against it at their best timing.
 std::string table_text(std::span<const Action> actions, const OffenseDefenseTable& table);
 
