@@ -24,6 +24,19 @@ Result<BodyModel> body_named(const std::string& name) {
   return make_body(*spec);
 }
 
+// A line for the first blows of combinations; empty where there are none.
+std::string first_blows_text(std::span<const Action> actions,
+                             std::span<const SparringRecord> records) {
+  std::vector<SparringRecord> firsts;
+  for (const SparringRecord& record : records) {
+    if (actions[record.attack.at()].strikes.size() < 2) continue;
+    firsts.push_back(record);
+    firsts.back().end = record.first;
+  }
+  if (firsts.empty()) return {};
+  return "first blow of a " + table_text(actions, OffenseDefenseTable(firsts));
+}
+
 // Records, table and page of one source of records.
 int write_sparring(const std::string& name, std::span<const Action> actions,
                    std::span<const SparringRecord> records, const CommonOptions& options) {
@@ -41,8 +54,8 @@ int write_sparring(const std::string& name, std::span<const Action> actions,
   if (options.json) {
     fmt::print("{}", json);
   } else {
-    fmt::print("{} records\n{}open {}\n", records.size(), table_text(actions, table),
-               (folder / "table.html").string());
+    fmt::print("{} records\n{}{}open {}\n", records.size(), table_text(actions, table),
+               first_blows_text(actions, records), (folder / "table.html").string());
   }
   return 0;
 }

@@ -26,6 +26,8 @@ struct SparringRecord {
   Tick offset = 0;     // from the attack's launch to the defense's; negative: launched before
   Placement relative;  // the defender's root as seen from the attacker's when the attack starts
   ExchangeEnd end = ExchangeEnd::struck;
+  // Of the attack's first blow alone: what a defense of one beat can answer of a combination.
+  ExchangeEnd first = ExchangeEnd::struck;
 
   bool worked() const { return end != ExchangeEnd::struck; }
 };

@@ -1,6 +1,7 @@
 #include "scene/pair_sparring.h"
 
 #include <algorithm>
+#include <span>
 
 #include "physics/contact.h"
 
@@ -14,11 +15,11 @@ BodyCapsules capsules_at(const BodyModel& body, const Clip& clip, Tick tick) {
   return capsules(body, world_pose(body.skeleton, scaled(clip.at(tick), body.scale)));
 }
 
-// What came of the attack: its blows tested in turn, each once.
-ExchangeEnd outcome(const BodyModel& body, const PairMove& attack, const Clip& attacker,
-                    const Clip& defender) {
+// What came of these blows of the attack, tested in turn, each once.
+ExchangeEnd outcome(const BodyModel& body, const PairMove& attack, std::span<const Strike> strikes,
+                    const Clip& attacker, const Clip& defender) {
   bool blocked = false;
-  for (const Strike& strike : attack.action->strikes) {
+  for (const Strike& strike : strikes) {
     const Tick first = attack.begin + strike.active_begin;
     SweptBody striker, target;
     striker.after = capsules_at(body, attacker, first - 1);
@@ -60,7 +61,9 @@ std::vector<SparringRecord> pair_records(const BodyModel& body, const PairTake& 
       record.defense = answer.id;
       record.offset = answer.begin - attack.begin;
       record.relative = inverse(attack.root) * answer.root;
-      record.end = outcome(body, attack, *attacker.clip, *defender.clip);
+      const std::span<const Strike> strikes = attack.action->strikes;
+      record.end = outcome(body, attack, strikes, *attacker.clip, *defender.clip);
+      record.first = outcome(body, attack, strikes.first(1), *attacker.clip, *defender.clip);
       records.push_back(record);
     }
   }

@@ -18,18 +18,20 @@ struct Answer {
   Tick offset = 0;
 };
 
+// What came of a whole attack, and of its first blow alone.
+struct Exchange {
+  ExchangeEnd end = ExchangeEnd::evaded, first = ExchangeEnd::evaded;
+};
+
 class AttackSparring {
  public:
-  AttackSparring(const MotionTables& attacker, const MotionTables& defender, ActionId idle,
-                 ActionId attack, const SparringSettings& settings)
-      : attacker_(attacker),
-        defender_(defender),
-        idle_(idle),
-        attack_(attack),
-        settings_(settings) {}
+  AttackSparring(const MotionTables& attacker, const MotionTables& defender, ActionId attack,
+                 const SparringSettings& settings)
+      : attacker_(attacker), defender_(defender), attack_(attack), settings_(settings) {}
 
-  // Records of this attack; empty where it lands on no standing guard.
-  std::vector<SparringRecord> run() {
+  // Records of this attack against who stands in `idle`; empty where it lands on no such guard.
+  std::vector<SparringRecord> run(ActionId idle) {
+    idle_ = idle;
     std::vector<SparringRecord> records;
     for (const float bearing : {-settings_.most_bearing, 0.0f, settings_.most_bearing}) {
       for (const float distance : landing_distances(bearing)) {
@@ -48,12 +50,14 @@ class AttackSparring {
     return found;
   }
 
-  Tick first_active() const { return attacker_.at(attack_).strikes.front().strike.active_begin; }
+  const StrikeTable& first_blow() const { return attacker_.at(attack_).strikes.front(); }
 
   void add(const Placement& relative, ActionId defense, std::vector<SparringRecord>& records) {
-    const Tick latest = first_active();
-    for (Tick offset = -settings_.earliest; offset <= latest; offset += settings_.offset_step)
-      records.push_back({attack_, defense, offset, relative, outcome(relative, {defense, offset})});
+    const Tick latest = first_blow().strike.active_begin;
+    for (Tick offset = -settings_.earliest; offset <= latest; offset += settings_.offset_step) {
+      const Exchange exchange = outcome(relative, {defense, offset});
+      records.push_back({attack_, defense, offset, relative, exchange.end, exchange.first});
+    }
   }
 
   // At most `settings.distances`, evenly over the longest stretch on which the blow lands.
@@ -61,7 +65,7 @@ class AttackSparring {
     std::vector<float> longest, stretch;
     for (int i = 0; kNearest + kStep * static_cast<float>(i) <= kFarthest; ++i) {
       const float distance = kNearest + kStep * static_cast<float>(i);
-      if (outcome({0, distance, kPi + bearing}, {}) == ExchangeEnd::struck) {
+      if (lands({0, distance, kPi + bearing})) {
         stretch.push_back(distance);
         if (stretch.size() > longest.size()) longest = stretch;
       } else {
@@ -75,6 +79,17 @@ class AttackSparring {
     for (std::size_t i = 0; i < wanted; ++i)
       spread.push_back(longest[(2 * i + 1) * longest.size() / (2 * wanted)]);
     return spread;
+  }
+
+  // The first blow meets the zone it is made for, out of the air, of a fighter that only stands.
+  bool lands(const Placement& relative) const {
+    const StrikeTable& blow = first_blow();
+    const InFlight attack =
+        launched(attacker_, attack_, 0, {}, relative.position(), kMostAttackAim);
+    const std::vector<InFlight> targets = flights(relative, {}, blow.strike.active_end);
+    const std::optional<Met> met = meets(attack, blow, targets);
+    if (!met || met->blocked || zone_of(met->contact.struck) != blow.strike.zone) return false;
+    return met->tick > blow.strike.active_begin || met->contact.share > 0;
   }
 
   InFlight launched(const MotionTables& tables, ActionId action, Tick start,
@@ -109,33 +124,51 @@ class AttackSparring {
     return all;
   }
 
-  ExchangeEnd outcome(const Placement& relative, const Answer& answer) {
+  Exchange outcome(const Placement& relative, const Answer& answer) const {
     const InFlight attack =
         launched(attacker_, attack_, 0, {}, relative.position(), kMostAttackAim);
     const auto& strikes = attack.table->strikes;
     Tick last = 0;
     for (const StrikeTable& strike : strikes) last = std::max(last, strike.strike.active_end);
     const std::vector<InFlight> targets = flights(relative, answer, last);
-    bool blocked = false;
+    Exchange exchange;
     for (const StrikeTable& strike : strikes) {
-      const std::optional<bool> met = meets(attack, strike, targets);
-      if (met && *met) return ExchangeEnd::struck;
-      if (met) blocked = true;
+      const std::optional<Met> met = meets(attack, strike, targets);
+      const ExchangeEnd end = !met           ? ExchangeEnd::evaded
+                              : met->blocked ? ExchangeEnd::blocked
+                                             : ExchangeEnd::struck;
+      if (&strike == &strikes.front()) exchange.first = end;
+      exchange.end = std::max(exchange.end, end);
+      if (end == ExchangeEnd::struck) break;
     }
-    return blocked ? ExchangeEnd::blocked : ExchangeEnd::evaded;
+    return exchange;
   }
 
-  // Nothing without contact, else whether it is clean.
-  static std::optional<bool> meets(const InFlight& attack, const StrikeTable& strike,
-                                   const std::vector<InFlight>& targets) {
+  struct Met {
+    Contact contact;
+    Tick tick = 0;
+    bool blocked = false;
+  };
+  // The first contact of a blow.
+  static std::optional<Met> meets(const InFlight& attack, const StrikeTable& strike,
+                                  const std::vector<InFlight>& targets) {
     std::size_t at = 0;
     for (Tick tick = strike.strike.active_begin; tick < strike.strike.active_end; ++tick) {
       while (at + 1 < targets.size() && targets[at].launch.end <= tick) ++at;
       if (!may_reach(attack, strike, targets[at])) continue;
       if (const auto contact = contact_at(attack, strike, targets[at], tick))
-        return !contact->blocked;
+        return Met{*contact, tick, contact->blocked || checks(targets[at], tick, contact->struck)};
     }
     return std::nullopt;
+  }
+
+  // Whether the part is the shin (or its foot) of a fighter who checks at that tick.
+  static bool checks(const InFlight& target, Tick tick, Part struck) {
+    const std::optional<Defense>& defense = target.table->action->defense;
+    if (!defense || defense->kind != DefenseKind::check) return false;
+    const bool lower = struck == Part::left_shin || struck == Part::right_shin ||
+                       struck == Part::left_foot || struck == Part::right_foot;
+    return lower && target.age(tick) >= defense->begin && target.age(tick) < defense->end;
   }
 
   const MotionTables& attacker_;
@@ -144,10 +177,11 @@ class AttackSparring {
   const SparringSettings& settings_;
 };
 
-std::optional<ActionId> first_idle(const MotionLibrary& library) {
+std::vector<ActionId> idles_of(const MotionLibrary& library) {
+  std::vector<ActionId> idles;
   for (const ActionId id : library.launchable())
-    if (library.action(id).kind == Kind::idle) return id;
-  return std::nullopt;
+    if (library.action(id).kind == Kind::idle) idles.push_back(id);
+  return idles;
 }
 
 }  // namespace
@@ -155,8 +189,7 @@ std::optional<ActionId> first_idle(const MotionLibrary& library) {
 Sparring spar(const MotionTables& attacker, const MotionTables& defender,
               const SparringSettings& settings) {
   Sparring sparring;
-  const auto idle = first_idle(defender.library());
-  if (!idle) return sparring;
+  const std::vector<ActionId> idles = idles_of(defender.library());
   std::vector<ActionId> attacks;
   for (const ActionId id : attacker.library().launchable())
     if (attacker.library().action(id).attacks()) attacks.push_back(id);
@@ -165,8 +198,12 @@ Sparring spar(const MotionTables& attacker, const MotionTables& defender,
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < attacks.size(); i = next++) {
-      if (settings.interrupted != nullptr && *settings.interrupted) return;
-      found[i] = AttackSparring(attacker, defender, *idle, attacks[i], settings).run();
+      AttackSparring one(attacker, defender, attacks[i], settings);
+      for (const ActionId idle : idles) {
+        if (settings.interrupted != nullptr && *settings.interrupted) return;
+        const std::vector<SparringRecord> records = one.run(idle);
+        found[i].insert(found[i].end(), records.begin(), records.end());
+      }
     }
   };
   std::vector<std::jthread> threads;

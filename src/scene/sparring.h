@@ -16,7 +16,7 @@ struct SparringSettings {
   // blow can first hit.
   Tick earliest = 30;
   Tick offset_step = kOffsetBin;
-  int distances = 5;                 // over the range in which the blow lands on a standing guard
+  int distances = 3;                 // over the range in which the blow lands on a standing guard
   float most_bearing = radians(15);  // the defender's facing off the attacker, both sides and none
   int threads = 1;                   // never changes the result
   const std::atomic<bool>* interrupted = nullptr;
@@ -27,10 +27,12 @@ struct Sparring {
   std::vector<ActionId> unlanded;       // attacks that meet no open target on a standing guard
 };
 
-// The attacker launches at tick 0, aimed as the tree aims; the defender stands in the library's
-// first idle until it launches the defense, and stands on after it. Only placements from which the
-// attack lands clean on the fighter that does nothing but stand are asked about. `attacker` and
-// `defender` are tables of one library.
+// The attacker launches at tick 0, aimed as the tree aims; the defender stands in one idle after
+// the other until it launches the defense, and stands on after it. Only placements are asked about
+// from which the first blow lands clean, in the zone it is made for, on the fighter that does
+// nothing but stand: an uppercut smothered on the belly says nothing about what answers uppercuts,
+// nor does a fist that is in the body already when it may first hit. A low kick that meets a shin
+// while a check protects is blocked. `attacker` and `defender` are tables of one library.
 Sparring spar(const MotionTables& attacker, const MotionTables& defender,
               const SparringSettings& settings = {});
 
