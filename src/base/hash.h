@@ -33,6 +33,12 @@ class Hasher {
     if (!text.empty()) std::memcpy(bytes_.data() + at, text.data(), text.size());
     return add(text.size());
   }
+  // As if they were added one after another.
+  Hasher& add(std::span<const float> values) {
+    const auto bytes = std::as_bytes(values);
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    return *this;
+  }
   std::uint64_t digest() const { return hash_bytes(bytes_); }
 
  private:

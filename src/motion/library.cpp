@@ -1,6 +1,7 @@
 #include "motion/library.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -12,8 +13,12 @@ namespace {
 
 void add(Hasher& hasher, const Clip& clip) {
   for (const Pose& pose : clip.frames) {
-    hasher.add(pose.hips.x).add(pose.hips.y).add(pose.hips.z);
-    for (const Quat& q : pose.rotation) hasher.add(q.w).add(q.x).add(q.y).add(q.z);
+    std::array<float, 3 + 4 * kJointCount> values{pose.hips.x, pose.hips.y, pose.hips.z};
+    std::size_t at = 3;
+    for (const Quat& q : pose.rotation) {
+      for (const float value : {q.w, q.x, q.y, q.z}) values[at++] = value;
+    }
+    hasher.add(values);
   }
   for (const Placement& root : clip.root) hasher.add(root.x).add(root.z).add(root.yaw);
   for (const FootContacts& contact : clip.contacts) hasher.add(contact.left).add(contact.right);

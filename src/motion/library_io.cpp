@@ -202,6 +202,10 @@ class LibraryReader {
 
   std::string read_paths(BytesIn& in) {
     const std::size_t count = parts_.actions.size();
+    joined_.resize(count * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const Edge& edge : edges_[i]) joined_[i * count + edge.to.at()] = true;
+    }
     paths_.resize(count);
     for (std::size_t i = 0; i < count && in.ok(); ++i) {
       paths_[i].resize(count);
@@ -290,14 +294,12 @@ class LibraryReader {
     return edge(from, to);
   }
   bool edge(ActionId from, ActionId to) const {
-    for (const Edge& edge : edges_[from.at()]) {
-      if (edge.to == to) return true;
-    }
-    return false;
+    return joined_[from.at() * parts_.actions.size() + to.at()];
   }
 
   LibraryParts parts_;
   std::vector<std::vector<Edge>> edges_;
+  std::vector<bool> joined_;  // whether an edge leads from one action to another, row by row
   std::vector<std::vector<std::optional<Path>>> paths_;
 };
 
