@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.h"
+
 namespace ringcraft {
 namespace {
 
@@ -59,18 +61,10 @@ std::int8_t shade_of_count(std::uint32_t count) {
 
 std::string text_svg(int x, int y, const char* anchor, int turn, int size,
                      const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<' || c == '&') {
-      safe += c == '<' ? "&lt;" : "&amp;";
-    } else {
-      safe += c;
-    }
-  }
   const std::string turned =
       turn != 0 ? fmt::format(" transform='rotate({} {} {})'", turn, x, y) : "";
   return fmt::format("<text x='{}' y='{}' text-anchor='{}' font-size='{}'{}>{}</text>\n", x, y,
-                     anchor, size, turned, safe);
+                     anchor, size, turned, escaped(text));
 }
 
 // Runs of one shade along each row, one path a shade.

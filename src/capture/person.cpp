@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "base/file.h"
-#include "capture/read_capture.h"
+#include "capture/canonical.h"
 #include "capture/retarget.h"
 #include "capture/segment.h"
 
@@ -28,35 +27,29 @@ Result<void> keep_distances(const RawClip& raw, const SkeletonProfile& profile, 
 }  // namespace
 
 Result<CapturedPerson> read_person(const std::filesystem::path& capture) {
-  auto raw = read_capture(capture);
-  if (!raw) return tl::unexpected(raw.error());
-  replace_junk_first_frame(*raw);
-  const auto profiles = read_profiles(assets_folder() / "profiles");
-  if (!profiles) return tl::unexpected(profiles.error());
-  const auto profile = best_profile(*profiles, *raw);
-  if (!profile) return tl::unexpected(profile.error());
   const Skeleton skeleton = canonical_skeleton();
-  auto clip = retarget(*raw, *profile, skeleton);
-  if (!clip) return tl::unexpected(clip.error());
+  const auto read = read_canonical(capture, skeleton);
+  if (!read) return tl::unexpected(read.error());
+  const Clip& clip = read->clip;
 
   CapturedPerson person;
   const std::string name = capture.stem().string();
-  const Segmentation found = segment(skeleton, *clip, name);
+  const Segmentation found = segment(skeleton, clip, name);
   person.notes = found.notes;
-  const CaptureTracks tracks = tracks_of(*clip, found.guard_at, found.guard_yaw);
-  person.clip = *clip;
-  if (const auto kept = keep_distances(*raw, *profile, person.clip); !kept)
+  const CaptureTracks tracks = tracks_of(clip, found.guard_at, found.guard_yaw);
+  person.clip = clip;
+  if (const auto kept = keep_distances(read->raw, read->profile, person.clip); !kept)
     return tl::unexpected(kept.error());
   for (const auto& segment : found.segments) {
-    auto action = cut_action(skeleton, *clip, tracks, segment.cut, capture.string(), "");
+    auto action = cut_action(skeleton, clip, tracks, segment.cut, capture.string(), "");
     if (!action) {
       person.notes.push_back("passed over: " + to_string(action.error()));
       continue;
     }
-    const Tick begin = std::clamp(ticks(segment.cut.begin), 0, clip->length());
+    const Tick begin = std::clamp(ticks(segment.cut.begin), 0, clip.length());
     const Vec3 at = person.clip.at(begin).hips;
     person.actions.push_back(
-        {std::move(*action), begin, {at.x, at.z, facing_at(skeleton, *clip, tracks, begin)}});
+        {std::move(*action), begin, {at.x, at.z, facing_at(skeleton, clip, tracks, begin)}});
   }
   std::stable_sort(
       person.actions.begin(), person.actions.end(),

@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "capture/canonical.h"
 #include "capture/gltf.h"
-#include "capture/profile.h"
-#include "capture/read_capture.h"
-#include "capture/retarget.h"
 #include "capture/segment.h"
 #include "capture/words.h"
 
@@ -88,13 +86,10 @@ void add(Action action, const std::string& file, Collection& out) {
 Result<Clip> canonical_clip(const fs::path& path, const std::string& clip_name, Collection& out) {
   CaptureSource source;
   source.clip = clip_name;
-  auto raw = read_capture(path, source);
-  if (!raw) return tl::unexpected(raw.error());
-  replace_junk_first_frame(*raw);
-  for (const std::string& note : raw->notes) out.note(path.string() + ": " + note);
-  auto profile = best_profile(out.profiles, *raw);
-  if (!profile) return tl::unexpected(profile.error());
-  return retarget(*raw, *profile, out.skeleton);
+  auto read = read_canonical(path, out.skeleton, out.profiles, source);
+  if (!read) return tl::unexpected(read.error());
+  for (const std::string& note : read->raw.notes) out.note(path.string() + ": " + note);
+  return std::move(read->clip);
 }
 
 // The same take in two formats gives its actions once.

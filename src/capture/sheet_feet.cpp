@@ -163,7 +163,7 @@ void FootMotion::make_paths(const SheetAction& action, const std::vector<SheetKe
     std::vector<ProfileWindow> windows;
     for (const SheetStrike& strike : action.strikes) {
       const bool inside = strike.start > span.lift - 1e-3f && strike.contact < span.land;
-      if (led_joint(strike.strike.joint) == leg(side_).end && inside) {
+      if (tip_of(strike.strike.joint) == leg(side_).end && inside) {
         windows.push_back({strike.start, strike.contact, speed_profile(strike.profile)});
       }
     }

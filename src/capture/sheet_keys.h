@@ -86,26 +86,11 @@ struct SheetStrike {
   std::string profile;
 };
 
-// The end of the limb that keys lead: a lower arm is led by its hand, a lower leg by its foot.
-constexpr Joint led_joint(Joint striker) {
-  switch (striker) {
-    case Joint::left_lower_arm:
-      return Joint::left_hand;
-    case Joint::right_lower_arm:
-      return Joint::right_hand;
-    case Joint::left_lower_leg:
-      return Joint::left_foot;
-    case Joint::right_lower_leg:
-      return Joint::right_foot;
-    default:
-      return striker;
-  }
-}
 constexpr bool is_foot(Joint joint) {
-  return led_joint(joint) == Joint::left_foot || led_joint(joint) == Joint::right_foot;
+  return tip_of(joint) == Joint::left_foot || tip_of(joint) == Joint::right_foot;
 }
 constexpr Side side_of(Joint striker) {
-  const Joint led = led_joint(striker);
+  const Joint led = tip_of(striker);
   return led == Joint::left_hand || led == Joint::left_foot ? Side::left : Side::right;
 }
 

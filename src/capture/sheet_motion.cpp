@@ -37,7 +37,7 @@ bool given(const std::vector<SheetKey>& keys, Channel channel) {
 std::vector<ProfileWindow> windows_of(const SheetAction& action, Joint joint) {
   std::vector<ProfileWindow> windows;
   for (const SheetStrike& strike : action.strikes) {
-    if (led_joint(strike.strike.joint) == joint) {
+    if (tip_of(strike.strike.joint) == joint) {
       windows.push_back({strike.start, strike.contact, speed_profile(strike.profile)});
     }
   }

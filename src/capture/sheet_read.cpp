@@ -274,7 +274,7 @@ class Reader {
       }
       for (const SheetStrike& other : result.strikes) {
         const bool apart = read.start >= other.contact || read.contact <= other.start;
-        if (led_joint(other.strike.joint) == led_joint(read.strike.joint) && !apart) {
+        if (tip_of(other.strike.joint) == tip_of(read.strike.joint) && !apart) {
           return fault(at, "the same limb strikes twice at a time",
                        "let the second strike start after the first one's contact");
         }

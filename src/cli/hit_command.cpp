@@ -114,10 +114,6 @@ std::string sentence_of(const HitQuery& query, const HitAnswer& answer) {
                             outcome.margin * 100);
 }
 
-Result<BodySpec> body_named(const std::string& name) {
-  return read_body(assets_folder() / "bodies" / (name + ".toml"));
-}
-
 Result<HitQuery> query_from(const HitOptions& hit) {
   HitQuery query;
   const auto part = part_named(hit.part);

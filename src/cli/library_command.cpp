@@ -2,10 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "capture/bvh.h"
+#include "capture/canonical.h"
 #include "capture/library_file.h"
-#include "capture/profile.h"
-#include "capture/retarget.h"
 #include "cli/commands.h"
 #include "cli/library_page.h"
 #include "scene/library_check.h"
@@ -68,12 +66,9 @@ constexpr double kRealFrom = 2.3, kRealTo = 16;  // s
 
 std::optional<Yardstick> measured_against_a_boxer(const MotionLibrary& library) {
   if (!std::filesystem::exists(kRealBoxer)) return std::nullopt;
-  const auto raw = read_bvh(kRealBoxer);
-  const auto profile = read_profile(assets_folder() / "profiles" / "boxing_toes.toml");
-  if (!raw || !profile) return std::nullopt;
-  const auto clip = retarget(*raw, *profile, library.skeleton());
-  if (!clip) return std::nullopt;
-  return yardstick(library, mirrored(*clip), ticks(kRealFrom), ticks(kRealTo));
+  const auto real = read_canonical(kRealBoxer, library.skeleton());
+  if (!real) return std::nullopt;
+  return yardstick(library, mirrored(real->clip), ticks(kRealFrom), ticks(kRealTo));
 }
 
 nlohmann::json json_of(const LibraryCheck& check) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.h"
 #include "capture/filmstrip.h"
 #include "capture/graph_picture.h"
 #include "scene/library_check.h"
@@ -54,22 +55,6 @@ for (const graph of document.querySelectorAll('svg.graph')) {
 }
 </script>
 )";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::string link_to(const Action& action) {
   return fmt::format("<a href=\"#a-{0}\">{0}</a>", escaped(action.name));

@@ -15,15 +15,6 @@ namespace ringcraft {
 
 namespace {
 
-Result<BodyModel> body_named(const std::string& name) {
-  const std::filesystem::path path = name.ends_with(".toml")
-                                         ? std::filesystem::path(name)
-                                         : assets_folder() / "bodies" / (name + ".toml");
-  const auto spec = read_body(path);
-  if (!spec) return tl::unexpected(spec.error());
-  return make_body(*spec);
-}
-
 // A line for the first blows of combinations; empty where there are none.
 std::string first_blows_text(std::span<const Action> actions,
                              std::span<const SparringRecord> records) {
@@ -90,10 +81,10 @@ int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
 }  // namespace
 
 int run_sparring(const SparringOptions& sparring, const CommonOptions& options) {
-  const auto attacker = body_named(sparring.attacker);
+  const auto attacker = body_named(sparring.attacker).map(make_body);
   if (!attacker) return fail(attacker.error());
   if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, options);
-  const auto defender = body_named(sparring.defender);
+  const auto defender = body_named(sparring.defender).map(make_body);
   if (!defender) return fail(defender.error());
   const auto library = load_library(sparring.library);
   if (!library) return fail(library.error());

@@ -6,10 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "base/file.h"
+#include "capture/canonical.h"
 #include "capture/library_file.h"
-#include "capture/profile.h"
-#include "capture/read_capture.h"
-#include "capture/retarget.h"
 #include "scene/scene_file.h"
 #include "scene/study_bouts.h"
 #include "scene/study_clips.h"
@@ -59,17 +57,11 @@ Result<Action> motion_of(const std::string& name, const MotionLibrary& library) 
     return usage_error(name, "", "the library has no such action",
                        "`ringcraft library inspect` lists them; a capture needs its extension");
   }
-  const auto raw = read_capture(name);
-  if (!raw) return tl::unexpected(raw.error());
-  const auto profiles = read_profiles(assets_folder() / "profiles");
-  if (!profiles) return tl::unexpected(profiles.error());
-  const auto profile = best_profile(*profiles, *raw);
-  if (!profile) return tl::unexpected(profile.error());
-  auto clip = retarget(*raw, *profile, library.skeleton());
-  if (!clip) return tl::unexpected(clip.error());
+  const auto read = read_canonical(name, library.skeleton());
+  if (!read) return tl::unexpected(read.error());
   Action action;
   action.name = std::filesystem::path(name).stem().string();
-  action.clip = from_origin(library.skeleton(), *clip);
+  action.clip = from_origin(library.skeleton(), read->clip);
   action.source = name;
   return action;
 }
@@ -99,10 +91,6 @@ std::vector<LeafValue> leaves_of(const StudyOptions& study) {
   return {study.leaf == "paper" ? LeafValue::paper : LeafValue::weighted};
 }
 
-Result<Style> style_of(const std::string& name) {
-  return read_style(assets_folder() / "styles" / (name + ".toml"));
-}
-
 std::string with_leaf(const std::string& name, LeafValue leaf) {
   return leaf == LeafValue::paper ? name + " (paper's leaf)" : name;
 }
@@ -114,7 +102,7 @@ Result<Pairing> style_pairing(const std::string& name, LeafValue leaf) {
   const std::string names[] = {name.substr(0, colon),
                                colon == std::string::npos ? name : name.substr(colon + 1)};
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto style = style_of(names[i]);
+    const auto style = style_named(names[i]);
     if (!style) return tl::unexpected(style.error());
     pairing.side[i] = *style;
     pairing.side[i].leaf = leaf;
@@ -150,6 +138,33 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, const Bou
   return finish_study(study, 0, common);
 }
 
+struct PairingsStudy {
+  const char* name;
+  const char* title;
+  float ring_m;  // side of the ring where none is asked for
+};
+
+// Every name with every leaf value that was asked for. `pairing_of`: name, leaf -> Result<Pairing>.
+template <class PairingOf>
+int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>& usual,
+                       PairingOf pairing_of, const StudyOptions& study,
+                       const CommonOptions& options) {
+  std::vector<Pairing> pairings;
+  for (const LeafValue leaf : leaves_of(study)) {
+    for (const std::string& name : study.pairings.empty() ? usual : study.pairings) {
+      auto pairing = pairing_of(name, leaf);
+      if (!pairing) return fail(pairing.error());
+      pairings.push_back(std::move(*pairing));
+    }
+  }
+  Study result;
+  result.name = what.name;
+  result.title = what.title;
+  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
+                          study.ring_m > 0 ? study.ring_m : what.ring_m};
+  return finish_pairings(std::move(result), pairings, series, study, options);
+}
+
 }  // namespace
 
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
@@ -167,7 +182,7 @@ int run_penetration_study(const StudyOptions& study, const CommonOptions& option
 int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
   const auto library = load_library(study.library);
   if (!library) return fail(library.error());
-  const auto spec = read_body(assets_folder() / "bodies" / (study.body + ".toml"));
+  const auto spec = body_named(study.body);
   if (!spec) return fail(spec.error());
   const auto a = motion_of(study.what[0], *library), b = motion_of(study.what[1], *library);
   if (!a) return fail(a.error());
@@ -182,52 +197,28 @@ int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
 }
 
 int run_horizon_study(const StudyOptions& study, const CommonOptions& options) {
-  const auto style = style_of("balanced");
+  const auto style = style_named("balanced");
   if (!style) return fail(style.error());
-  const std::vector<std::string> names =
-      study.pairings.empty() ? std::vector<std::string>{"3v1", "2v1", "3v2", "3v2.5", "1v1", "3v3"}
-                             : study.pairings;
-  std::vector<Pairing> pairings;
-  for (const LeafValue leaf : leaves_of(study)) {
-    for (const std::string& name : names) {
-      Style with = *style;
-      with.leaf = leaf;
-      auto pairing = horizon_pairing(name, with);
-      if (!pairing) {
-        return fail(Error{ErrorKind::usage, "--pairings", "",
-                          fmt::format("'{}' names no horizons", name),
-                          "give two horizons in seconds, as 3v1"});
-      }
-      pairing->name = with_leaf(name, leaf);
-      pairings.push_back(std::move(*pairing));
+  const auto pairing_of = [&](const std::string& name, LeafValue leaf) -> Result<Pairing> {
+    Style with = *style;
+    with.leaf = leaf;
+    auto pairing = horizon_pairing(name, with);
+    if (!pairing) {
+      return usage_error("--pairings", "", fmt::format("'{}' names no horizons", name),
+                         "give two horizons in seconds, as 3v1");
     }
-  }
-  Study result;
-  result.name = "horizon";
-  result.title = "Horizon against horizon";
-  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
-                          study.ring_m > 0 ? study.ring_m : 6.0f};
-  return finish_pairings(std::move(result), pairings, series, study, options);
+    pairing->name = with_leaf(name, leaf);
+    return *std::move(pairing);
+  };
+  return run_pairings_study({"horizon", "Horizon against horizon", 6},
+                            {"3v1", "2v1", "3v2", "3v2.5", "1v1", "3v3"}, pairing_of, study,
+                            options);
 }
 
 int run_styles_study(const StudyOptions& study, const CommonOptions& options) {
-  const std::vector<std::string> names =
-      study.pairings.empty() ? std::vector<std::string>{"outboxer:infighter", "balanced:balanced"}
-                             : study.pairings;
-  std::vector<Pairing> pairings;
-  for (const LeafValue leaf : leaves_of(study)) {
-    for (const std::string& name : names) {
-      auto pairing = style_pairing(name, leaf);
-      if (!pairing) return fail(pairing.error());
-      pairings.push_back(std::move(*pairing));
-    }
-  }
-  Study result;
-  result.name = "styles";
-  result.title = "Style against style";
-  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
-                          study.ring_m > 0 ? study.ring_m : 9.0f};
-  return finish_pairings(std::move(result), pairings, series, study, options);
+  return run_pairings_study({"styles", "Style against style", 9},
+                            {"outboxer:infighter", "balanced:balanced"}, style_pairing, study,
+                            options);
 }
 
 void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),

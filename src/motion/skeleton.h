@@ -84,6 +84,16 @@ constexpr Joint toes(Side side) {
   return side == Side::left ? Joint::left_toes : Joint::right_toes;
 }
 
+// The joint at the tip of what a joint moves: of a lower arm its hand, of a lower leg its foot,
+// of any other joint itself.
+constexpr Joint tip_of(Joint joint) {
+  for (const Side side : {Side::left, Side::right}) {
+    if (joint == arm(side).middle) return arm(side).end;
+    if (joint == leg(side).middle) return leg(side).end;
+  }
+  return joint;
+}
+
 // Joint offsets from the parent in the rest pose, metres. The hips' offset is their rest position.
 struct Skeleton {
   float height = 0;  // standing height, m

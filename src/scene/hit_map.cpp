@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.h"
+
 namespace ringcraft {
 namespace {
 
@@ -26,26 +28,6 @@ std::size_t look_of(const ImpactOutcome& outcome) {
   if (outcome.response == ResponseKind::knockdown) return 4;
   if (outcome.response == ResponseKind::absorb) return 0;
   return static_cast<std::size_t>(std::clamp(outcome.steps, 1, 3));
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
 }
 
 struct Span {

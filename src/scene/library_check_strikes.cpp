@@ -26,24 +26,9 @@ double speed(const std::vector<Vec3>& path, std::size_t i) {
   return b > a ? glm::distance(path[b], path[a]) * kTicksPerSecond / static_cast<float>(b - a) : 0;
 }
 
-Joint led_by(Joint striker) {
-  switch (striker) {
-    case Joint::left_lower_arm:
-      return Joint::left_hand;
-    case Joint::right_lower_arm:
-      return Joint::right_hand;
-    case Joint::left_lower_leg:
-      return Joint::left_foot;
-    case Joint::right_lower_leg:
-      return Joint::right_foot;
-    default:
-      return striker;
-  }
-}
-
 Motion motion_of(const Skeleton& skeleton, const Action& action, const Strike& strike) {
   Motion m;
-  const Joint limb = led_by(strike.joint);
+  const Joint limb = tip_of(strike.joint);
   for (const Pose& pose : action.clip.frames) {
     m.world.push_back(world_pose(skeleton, pose));
     const WorldPose& world = m.world.back();

@@ -48,6 +48,14 @@ std::string remedy_for_name(const std::string& name, const std::string& folder) 
   return near.empty() ? "known names: " + all : "did you mean '" + near + "'? Known names: " + all;
 }
 
+// The file of a name that stands on a command line.
+Result<fs::path> existing_file(const std::string& name, const std::string& folder,
+                               const char* what) {
+  const fs::path path = file_named(name, folder, "");
+  if (fs::exists(path)) return path;
+  return input_error(name, "", std::string("no such ") + what, remedy_for_name(name, folder));
+}
+
 // Linear from sRGB (IEC 61966-2-1).
 float linear(int byte) {
   const float s = static_cast<float>(byte) / 255.0f;
@@ -226,13 +234,19 @@ Result<BodySpec> read_body(const fs::path& path) {
   return body;
 }
 
+Result<BodySpec> body_named(const std::string& name_or_path) {
+  return existing_file(name_or_path, "bodies", "body").and_then(read_body);
+}
+
+Result<Style> style_named(const std::string& name_or_path) {
+  return existing_file(name_or_path, "styles", "style").and_then(read_style);
+}
+
 Result<SceneFile> read_scene(const std::string& name_or_path,
                              const std::vector<std::string>& sets) {
-  const fs::path path = file_named(name_or_path, "scenes", "");
-  if (!fs::exists(path)) {
-    return input_error(name_or_path, "", "no such scene", remedy_for_name(name_or_path, "scenes"));
-  }
-  auto document = read_document(path, "scene");
+  const auto path = existing_file(name_or_path, "scenes", "scene");
+  if (!path) return tl::unexpected(path.error());
+  auto document = read_document(*path, "scene");
   if (!document) return tl::unexpected(document.error());
   for (const std::string& assignment : sets) {
     if (auto set = set_value(*document, assignment); !set) return tl::unexpected(set.error());

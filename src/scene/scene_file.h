@@ -46,4 +46,8 @@ Result<SceneFile> read_scene(const std::string& name_or_path,
 // Reads a body file (assets/schemas/body.schema.json).
 Result<BodySpec> read_body(const std::filesystem::path& path);
 
+// A body or a style by the bare name of a file in assets/bodies or assets/styles, or by a path.
+Result<BodySpec> body_named(const std::string& name_or_path);
+Result<Style> style_named(const std::string& name_or_path);
+
 }  // namespace ringcraft

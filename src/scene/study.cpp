@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/markup.h"
 
 namespace ringcraft {
 namespace {
@@ -47,28 +48,12 @@ nlohmann::ordered_json rows_json(const StudyTable& table) {
   return rows;
 }
 
-std::string html_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string html_table(const StudyTable& table) {
   std::string out = "<table><tr>";
-  for (const std::string& column : table.columns) out += "<th>" + html_escaped(column);
+  for (const std::string& column : table.columns) out += "<th>" + escaped(column);
   for (const auto& row : table.rows) {
     out += "<tr>";
-    for (const StudyCell& cell : row) out += "<td>" + html_escaped(cell_text(cell));
+    for (const StudyCell& cell : row) out += "<td>" + escaped(cell_text(cell));
   }
   return out + "</table>\n";
 }
@@ -120,7 +105,7 @@ std::string study_text(const StudyTable& table) {
 
 std::string study_html(const Study& study) {
   std::string said;
-  for (const std::string& one : study.said) said += "<p>" + html_escaped(one) + "\n";
+  for (const std::string& one : study.said) said += "<p>" + escaped(one) + "\n";
   return fmt::format(
       "<!doctype html><meta charset=\"utf-8\"><title>{0}</title>\n"
       "<style>body{{font:14px system-ui;margin:2em;max-width:1200px}}"
@@ -128,7 +113,7 @@ std::string study_html(const Study& study) {
       "td,th{{padding:.25em .7em;border-bottom:1px solid #ccc;text-align:right;"
       "font-variant-numeric:tabular-nums}}"
       "td:first-child,th:first-child{{text-align:left}}</style>\n<h1>{0}</h1>\n{1}{2}{3}",
-      html_escaped(study.title), said, study_svg(study), html_table(study.table));
+      escaped(study.title), said, study_svg(study), html_table(study.table));
 }
 
 Result<void> write_study(const std::filesystem::path& folder, const Study& study) {

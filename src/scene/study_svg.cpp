@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.h"
 #include "scene/study.h"
 
 namespace ringcraft {
@@ -18,22 +19,6 @@ constexpr double kTitleHeight = 40, kLegendLine = 15;
 constexpr std::size_t kPanelsARow = 2;
 constexpr std::array<const char*, 6> kInks{"#1c6fb2", "#b2501c", "#2f855a",
                                            "#7b3fa0", "#a3123a", "#77808a"};
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 // A step of 1, 2 or 5 times a power of ten that cuts `span` into about `parts`.
 double round_step(double span, int parts) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.h"
+
 namespace ringcraft {
 namespace {
 
@@ -25,22 +27,6 @@ constexpr const char* kOpponentInk = "#2c5282";
 constexpr const char* kForcedInk = "#7b3fa0";
 constexpr const char* kPrunedInk = "#a3123a";
 constexpr const char* kQuietInk = "#77808a";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 std::string signed_points(std::int32_t thousandths) {
   return fmt::format("{:+.2f}", std::round(thousandths / 10.0) / 100.0 + 0.0);

@@ -6,19 +6,14 @@
 #include <cmath>
 #include <vector>
 
-#include "base/file.h"
+#include "capture/canonical.h"
 #include "capture/mocap.h"
-#include "capture/profile.h"
-#include "capture/read_capture.h"
 #include "capture/segment.h"
 
 namespace ringcraft::testing {
 
 inline Clip canonical_clip_of(const std::filesystem::path& path) {
-  auto raw = read_capture(path);
-  replace_junk_first_frame(*raw);
-  const auto profiles = read_profiles(assets_folder() / "profiles");
-  return *retarget(*raw, *best_profile(*profiles, *raw), canonical_skeleton());
+  return read_canonical(path, canonical_skeleton()).value().clip;
 }
 
 struct Seen {

@@ -2,26 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "fight/synthetic_library.h"
+#include "fight/synthetic_fixture.h"
 #include "fight/timeline.h"
 
 namespace ringcraft {
 namespace {
 
-class StateTest : public testing::Test {
+class StateTest : public SyntheticFixture {
  protected:
-  static const MotionLibrary& library() {
-    static const MotionLibrary kLibrary = synthetic::library();
-    return kLibrary;
-  }
-  static Launch launch(const char* name, Tick start, Placement placement) {
-    Launch launch;
-    launch.action = library().find(name);
-    launch.start = start;
-    launch.end = start + library().action(launch.action).length();
-    launch.placement = placement;
-    return launch;
-  }
   static FightState state(std::vector<Tick> ends) {
     FightState state;
     for (const Tick end : ends) {

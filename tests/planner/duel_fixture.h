@@ -1,21 +1,15 @@
 #pragma once
 // Two fighters of the synthetic library, and the tree between them.
 
-#include <gtest/gtest.h>
-
 #include "base/random.h"
-#include "fight/synthetic_library.h"
+#include "fight/synthetic_fixture.h"
 #include "planner/duel.h"
 #include "planner/plan.h"
 
 namespace ringcraft {
 
-class DuelFixture : public testing::Test {
+class DuelFixture : public SyntheticFixture {
  protected:
-  static const MotionLibrary& library() {
-    static const MotionLibrary kLibrary = synthetic::library();
-    return kLibrary;
-  }
   static const MotionTables& tables() {
     static const MotionTables kTables(library(), make_body({}));
     return kTables;
@@ -50,14 +44,6 @@ class DuelFixture : public testing::Test {
     prune.unanswered_hit = prune.back_turned = prune.penetration = false;
   }
 
-  static Launch launch(const char* name, Tick start, Placement placement) {
-    Launch launch;
-    launch.action = library().find(name);
-    launch.start = start;
-    launch.end = start + library().action(launch.action).length();
-    launch.placement = placement;
-    return launch;
-  }
   // Fighters face each other, `distance` m apart; fighter 0 acts at tick 0, fighter 1 at `lag`.
   static FightState facing(float distance, Tick lag = 0) {
     FightState state;

@@ -4,22 +4,12 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
-#include "capture/library_file.h"
+#include "default_library.h"
 #include "physics/response.h"
 
 namespace ringcraft {
 namespace {
-
-const MotionLibrary& library() {
-  static const MotionLibrary built = [] {
-    auto result = load_library("kickboxing");
-    if (!result) throw std::runtime_error(to_string(result.error()));
-    return std::move(*result);
-  }();
-  return built;
-}
 
 SceneFile scene_of(const std::string& name, const std::vector<std::string>& sets) {
   auto scene = read_scene(name, sets);
@@ -31,7 +21,7 @@ FightRecord short_duel(std::uint64_t seed, int threads) {
   const SceneFile scene = scene_of("duel", {"duration_s=5", "seed=" + std::to_string(seed)});
   FightOptions options;
   options.threads = threads;
-  return simulate_fight(library(), scene, options);
+  return simulate_fight(default_library(), scene, options);
 }
 
 TEST(Fight, SameSeedIsTheSameFightForAnyNumberOfThreads) {
@@ -85,7 +75,7 @@ TEST(Fight, AHitIsAnsweredByAForcedResponseAtTheSameTick) {
 
 TEST(Fight, ThreeFightersEachFaceTheirNearestOpponent) {
   const SceneFile scene = scene_of("brawl3", {"duration_s=4"});
-  const FightRecord record = simulate_fight(library(), scene);
+  const FightRecord record = simulate_fight(default_library(), scene);
   ASSERT_EQ(record.timeline.tracks.size(), 3u);
   std::set<std::int32_t> deciders;
   for (const Event& event : record.timeline.events) {

@@ -15,7 +15,6 @@
 namespace ringcraft {
 namespace {
 
-using hits::library;
 using hits::query;
 using ::testing::HasSubstr;
 
@@ -25,7 +24,7 @@ const std::string& hit_events() {
     HitQuery hit = query();
     hit.part = Part::chest;
     hit.impulse = {5, 1, -30};
-    const auto answer = simulate_hit(library(), hit);
+    const auto answer = simulate_hit(default_library(), hit);
     if (!answer) throw std::runtime_error(to_string(answer.error()));
     return events_jsonl(answer->timeline, {{"one", answer->bodies[0]}}, {});
   }();
@@ -39,7 +38,7 @@ Result<ReplayReport> replayed(const std::string& text, int threads = 1) {
 TEST(HitReplay, AFightsHitsComeOutToTheBit) {
   auto scene = read_scene("duel", {"duration_s=6", "seed=3"});
   ASSERT_TRUE(scene);
-  const FightRecord record = simulate_fight(library(), *scene, {});
+  const FightRecord record = simulate_fight(default_library(), *scene, {});
   std::vector<FighterLook> looks;
   for (const BodyModel& body : record.bodies) looks.push_back({body.spec.name, body});
   const std::string text = events_jsonl(record.timeline, looks, {});
@@ -53,7 +52,7 @@ TEST(HitReplay, AFightsHitsComeOutToTheBit) {
 
 TEST(HitReplay, IsNoPartOfTheTimelinesHash) {
   HitQuery hit = query();
-  const auto answer = simulate_hit(library(), hit);
+  const auto answer = simulate_hit(default_library(), hit);
   ASSERT_TRUE(answer);
   Timeline without = answer->timeline;
   for (Event& event : without.events) event.replay.clear();
@@ -93,12 +92,12 @@ TEST(HitReplay, OneChangedDigitOfTheReplayIsFound) {
 TEST(HitReplay, AnotherOutcomeThanTheWrittenOneIsFoundToTheBit) {
   HitQuery hit = query();
   hit.impulse = {0, 0, -20};
-  const auto posed = posed_body(library(), hit);
+  const auto posed = posed_body(default_library(), hit);
   ASSERT_TRUE(posed);
   const ImpactInput input = with_impulse(*posed, Part::head, hit.impulse, 1);
   ImpactOutcome outcome = impulse_step(posed->body, input);
   outcome.margin = std::nextafter(outcome.margin, 1.0f);
-  const auto answer = simulate_hit(library(), hit);
+  const auto answer = simulate_hit(default_library(), hit);
   Timeline timeline = answer->timeline;
   timeline.events[0].replay = replay_text(posed->body, input, outcome, 100'000);
   const auto report = replayed(events_jsonl(timeline, {{"one", posed->body}}, {}));
@@ -156,7 +155,7 @@ TEST(HitReplay, AFightWithoutHitsHasNothingToDiffer) {
 
 TEST(ReplayText, ValuesThatNoHitHasAreRefusedThoughTheHashFits) {
   HitQuery hit = query();
-  const auto posed = posed_body(library(), hit);
+  const auto posed = posed_body(default_library(), hit);
   ASSERT_TRUE(posed);
   const ImpactInput good = with_impulse(*posed, Part::head, {0, 0, -20}, 1);
   std::string why;
@@ -216,7 +215,7 @@ TEST(ReplayText, ReadsBackWhatWasWritten) {
   HitQuery hit = query("cross", 0.2);
   hit.body.sex = Sex::female;
   hit.body.height = 1.61f;
-  const auto posed = posed_body(library(), hit);
+  const auto posed = posed_body(default_library(), hit);
   ASSERT_TRUE(posed);
   ImpactInput input = with_impulse(*posed, Part::left_forearm, {3, 2, -21}, 0.7f);
   input.blow.blocked = true;

@@ -9,7 +9,6 @@
 namespace ringcraft {
 namespace {
 
-using hits::library;
 using hits::query;
 using ::testing::HasSubstr;
 
@@ -24,7 +23,7 @@ HitSweep swept(const std::vector<std::string>& texts, Part part, int threads = 1
   hit.part = part;
   SweepOptions options;
   options.threads = threads;
-  auto sweep = sweep_hits(library(), hit, std::move(ranges), options);
+  auto sweep = sweep_hits(default_library(), hit, std::move(ranges), options);
   if (!sweep) throw std::runtime_error(to_string(sweep.error()));
   return std::move(*sweep);
 }
@@ -85,7 +84,8 @@ TEST(HitSweep, WhatWasInterruptedKeepsWhatIsDone) {
   const std::atomic<bool> interrupted = true;
   SweepOptions options;
   options.interrupted = &interrupted;
-  const auto sweep = sweep_hits(library(), query(), {*sweep_range("impulse=0:40:20")}, options);
+  const auto sweep =
+      sweep_hits(default_library(), query(), {*sweep_range("impulse=0:40:20")}, options);
   ASSERT_TRUE(sweep);
   EXPECT_TRUE(sweep->interrupted);
   EXPECT_EQ(std::ranges::count(sweep_csv(*sweep), '\n'), 1);
@@ -107,10 +107,10 @@ TEST(HitSweep, WrongRangesAreUsageErrors) {
 TEST(HitSweep, TooManyPointsAndAnAxisTwiceAreUsageErrors) {
   const SweepRange impulse = *sweep_range("impulse=0:1000:1"),
                    way = *sweep_range("direction=0:20:1");
-  const auto many = sweep_hits(library(), query(), {impulse, way});
+  const auto many = sweep_hits(default_library(), query(), {impulse, way});
   ASSERT_FALSE(many);
   EXPECT_THAT(many.error().what, HasSubstr("more than 20000 points"));
-  const auto twice = sweep_hits(library(), query(), {way, way});
+  const auto twice = sweep_hits(default_library(), query(), {way, way});
   ASSERT_FALSE(twice);
   EXPECT_THAT(twice.error().what, HasSubstr("direction twice"));
 }

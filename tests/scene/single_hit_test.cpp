@@ -8,18 +8,17 @@
 namespace ringcraft {
 namespace {
 
-using hits::library;
 using hits::query;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
-  const auto& launchable = library().launchable();
+  const auto& launchable = default_library().launchable();
   for (std::size_t i = 0; i < launchable.size(); i += 5) {
-    const Action& action = library().action(launchable[i]);
+    const Action& action = default_library().action(launchable[i]);
     for (const double share : {0.1, 0.5, 0.9}) {
       const double at = share * seconds(action.length());
-      const auto posed = posed_body(library(), query(action.name, at));
+      const auto posed = posed_body(default_library(), query(action.name, at));
       ASSERT_TRUE(posed) << to_string(posed.error());
       const auto outcome = impulse_step(posed->body, with_impulse(*posed, Part::head, {}, 1));
       EXPECT_EQ(outcome.response, ResponseKind::absorb)
@@ -29,7 +28,7 @@ TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
 }
 
 TEST(SingleHit, TheImpulseIsInTheFightersOwnAxes) {
-  const auto posed = posed_body(library(), query());
+  const auto posed = posed_body(default_library(), query());
   ASSERT_TRUE(posed);
   const ImpactInput fore = with_impulse(*posed, Part::chest, {0, 0, 10}, 1);
   EXPECT_NEAR(yaw_of(fore.blow.impulse), posed->facing, 1e-5f);
@@ -44,7 +43,7 @@ TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
   HitQuery hit = query("idle_guard_bounce", 0.0);
   hit.impulse = {0, 0, -20};
   hit.part = Part::chest;
-  const auto answer = simulate_hit(library(), hit);
+  const auto answer = simulate_hit(default_library(), hit);
   ASSERT_TRUE(answer) << to_string(answer.error());
   ASSERT_EQ(answer->timeline.tracks.size(), 1u);
   EXPECT_EQ(answer->hit_tick, 0);
@@ -67,7 +66,7 @@ TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
   HitQuery hit = query();
   hit.strike = GetParam().strike;
   hit.part = GetParam().part;
-  const auto answer = simulate_hit(library(), hit);
+  const auto answer = simulate_hit(default_library(), hit);
   ASSERT_TRUE(answer) << to_string(answer.error());
   const Blow& blow = answer->input.blow;
   EXPECT_EQ(zone_of(blow.part), zone_of(hit.part));
@@ -81,7 +80,8 @@ TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
   }
   // The same blow given directly, to a body that was never on a stage with another.
   ImpactInput direct = answer->input;
-  const auto posed = posed_body(library(), query(hit.action, static_cast<double>(answer->at_s)));
+  const auto posed =
+      posed_body(default_library(), query(hit.action, static_cast<double>(answer->at_s)));
   ASSERT_TRUE(posed);
   direct.continued = posed->continued;
   const ImpactOutcome outcome = impulse_step(posed->body, direct);
@@ -102,7 +102,7 @@ TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
   HitQuery hit = query();
   hit.strike = "cross";
   hit.part = Part::left_shin;
-  const auto answer = simulate_hit(library(), hit);
+  const auto answer = simulate_hit(default_library(), hit);
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().kind, ErrorKind::usage);
   EXPECT_THAT(answer.error().what, HasSubstr("cross does not land on the leftShin"));
@@ -113,18 +113,18 @@ TEST(PlacedStrike, FromAGivenDistanceMeetsOrSaysFromWhereItWould) {
   HitQuery hit = query();
   hit.strike = "cross";
   hit.distance = 0.95f;
-  const auto near = simulate_hit(library(), hit);
+  const auto near = simulate_hit(default_library(), hit);
   ASSERT_TRUE(near) << to_string(near.error());
   EXPECT_FLOAT_EQ(near->distance, 0.95f);
   hit.distance = 2.5f;
-  const auto far = simulate_hit(library(), hit);
+  const auto far = simulate_hit(default_library(), hit);
   ASSERT_FALSE(far);
   EXPECT_THAT(far.error().what, HasSubstr("from 2.5 m"));
 }
 
 TEST(SingleHit, UnknownNamesAndTimesOutsideAreUsageErrors) {
   for (const HitQuery& wrong : {query("crosss"), query("cross", -1), query("cross", 1e300)}) {
-    const auto answer = simulate_hit(library(), wrong);
+    const auto answer = simulate_hit(default_library(), wrong);
     ASSERT_FALSE(answer);
     EXPECT_EQ(answer.error().kind, ErrorKind::usage);
     EXPECT_EQ(answer.error().place, "--pose");

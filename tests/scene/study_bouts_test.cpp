@@ -5,18 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
-#include "fight/synthetic_library.h"
+#include "fight/synthetic_fixture.h"
 #include "scene/study_slowed.h"
 
 namespace ringcraft {
 namespace {
 
-class StudyBoutsTest : public testing::Test {
+class StudyBoutsTest : public SyntheticFixture {
  protected:
-  static const MotionLibrary& library() {
-    static const MotionLibrary kLibrary = synthetic::library();
-    return kLibrary;
-  }
   static SceneFile scene() {
     SceneFile scene;
     scene.fighters.resize(2);

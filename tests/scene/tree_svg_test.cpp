@@ -5,21 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
-#include "capture/library_file.h"
+#include "default_library.h"
 
 namespace ringcraft {
 namespace {
-
-const MotionLibrary& library() {
-  static const MotionLibrary built = [] {
-    auto result = load_library("kickboxing");
-    if (!result) throw std::runtime_error(to_string(result.error()));
-    return std::move(*result);
-  }();
-  return built;
-}
 
 SceneFile duel() {
   auto scene =
@@ -31,13 +21,13 @@ SceneFile duel() {
 constexpr std::size_t kNodes = 90;
 
 SceneTree tree_of(double at_s, std::size_t nodes = kNodes) {
-  auto tree = tree_at(library(), duel(), at_s, nodes);
+  auto tree = tree_at(default_library(), duel(), at_s, nodes);
   if (!tree) throw std::runtime_error(to_string(tree.error()));
   return std::move(*tree);
 }
 
 TEST(TreeOfScene, IsThatOfTheFirstDecisionFromThatTime) {
-  const FightRecord fight = simulate_fight(library(), duel());
+  const FightRecord fight = simulate_fight(default_library(), duel());
   const auto decision = std::find_if(
       fight.timeline.events.begin(), fight.timeline.events.end(), [](const Event& event) {
         return event.type == EventType::decision && event.tick >= ticks(1.5);
@@ -61,7 +51,7 @@ TEST(TreeOfScene, SameBytesTwiceAndForTwoThreads) {
   const SceneTree a = tree_of(1), b = tree_of(1);
   FightOptions two;
   two.threads = 2;
-  const auto c = tree_at(library(), duel(), 1, kNodes, two);
+  const auto c = tree_at(default_library(), duel(), 1, kNodes, two);
   ASSERT_TRUE(c);
   for (const SceneTree* other : {&b, &*c}) {
     EXPECT_EQ(tree_json(a), tree_json(*other));
@@ -134,13 +124,13 @@ TEST(TreeOfScene, NamesInThePictureAreEscaped) {
 
 TEST(TreeOfScene, TimesOutsideAreUsageErrors) {
   for (const double at_s : {-0.5, 3.0, 99.0, std::nan(""), 1e300}) {
-    const auto tree = tree_at(library(), duel(), at_s, kNodes);
+    const auto tree = tree_at(default_library(), duel(), at_s, kNodes);
     ASSERT_FALSE(tree) << at_s;
     EXPECT_EQ(tree.error().kind, ErrorKind::usage);
     EXPECT_EQ(tree.error().place, "--at");
   }
   // The last decision is past: the fight goes on, but nobody chooses any more.
-  const auto late = tree_at(library(), duel(), 2.99, kNodes);
+  const auto late = tree_at(default_library(), duel(), 2.99, kNodes);
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().kind, ErrorKind::usage);
   EXPECT_NE(late.error().what.find("last decision"), std::string::npos);
