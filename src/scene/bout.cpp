@@ -235,7 +235,8 @@ std::optional<Bout::Touch> Bout::touch_of(FighterId attacker, std::size_t strike
     const auto contact = strike_contact(stage_.swept(attacker), action_of(attacker).strikes[strike],
                                         stage_.swept(target));
     if (contact && (!first || contact->share < first->contact.share)) {
-      first = Touch{attacker, target, strike, *contact};
+      first =
+          Touch{attacker, target, state_.fighters[attacker.at()].launch.action, strike, *contact};
     }
   }
   return first;
@@ -259,8 +260,11 @@ std::vector<Bout::Touch> Bout::touches() const {
 
 void Bout::commit_touch(const Touch& touch) {
   const FighterId attacker = touch.attacker, target = touch.target;
-  const Strike strike = action_of(attacker).strikes.at(touch.strike);
-  fighter(attacker).launch.spent |= static_cast<std::uint8_t>(1u << touch.strike);
+  const Action& attack = library_.action(touch.action);
+  const Strike strike = attack.strikes.at(touch.strike);
+  if (fighter(attacker).launch.action == touch.action) {
+    fighter(attacker).launch.spent |= static_cast<std::uint8_t>(1u << touch.strike);
+  }
   last_contact_ = state_.now;
 
   // 1. The impulse of the blow, and what the struck body does with it in 100 ms.
@@ -297,7 +301,7 @@ void Bout::commit_touch(const Touch& touch) {
   event.type = touch.contact.blocked ? EventType::block : EventType::hit;
   event.who = attacker;
   event.whom = target;
-  event.action = action_of(attacker).name;
+  event.action = attack.name;
   event.part = std::string(name_of(input.blow.part));
   event.strike = strike.kind;
   event.point = input.blow.point;

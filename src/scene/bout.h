@@ -37,6 +37,7 @@ class Bout {
  private:
   struct Touch {  // a strike of one fighter meets another
     FighterId attacker, target;
+    ActionId action;  // of the attacker, who may be struck and answer in the same tick
     std::size_t strike = 0;
     Contact contact;
   };
