@@ -18,6 +18,9 @@ const follows = {
   "steps.toml": "captured steps: 0.21-0.27 s, 0.12 [0.04..0.26] H, 2-4 cm lift, nearer foot first",
   "responses.toml": "V2: recovery steps start at 0.2-0.3 s and land at 0.4-0.6 s, 0.3-0.5 m",
   "falls.toml": "captured fall and get-ups: hips before trunk, head last, pause in the squat",
+  "close.toml": "hooks and the front kick with the forearm or the shin folded; no captured elbows, knees or shoves",
+  "spins.toml":
+    "a captured side thrust kick (pelvis turned 60-77 degrees, hip tilted 27-32); head first, then body, limb last; no captured spins or sweeps",
   "guard.toml": "medians of two captured guards, 26 s",
 };
 
