@@ -13,6 +13,8 @@ constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the 
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
+constexpr float kFastFoot = 0.045f;       // s per m/s that a step has to take off
+constexpr float kLongestStep = 0.35f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
 constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
@@ -21,6 +23,7 @@ constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
+constexpr float kFarTurn = 0.0f;          // rad, of a shoulder or an elbow
 constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
@@ -65,6 +68,40 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
   return {value, (next - value) / kTickSeconds, seconds};
 }
 
+// The humerus about the middle of its range (forward, out and down): its swing across the arm, and
+// its turn about the arm in x. What lies between two turns inside the shoulder's range is inside it
+// in these numbers, which is not so along the shortest turn.
+Quat humerus_middle() {
+  return rotation_between(kLeft, Vec3{.55f, -.35f, .75f});
+}
+Quat as_left(Side side, Quat q) {
+  return side == Side::left ? q : Quat(q.w, q.x, -q.y, -q.z);
+}
+Vec3 humerus_turns(Side side, Quat rotation) {
+  const Quat q = glm::conjugate(humerus_middle()) * as_left(side, rotation);
+  const float turn = wrapped_angle(2 * std::atan2(q.x, q.w));
+  const Vec3 swing = rotation_vector(q * glm::conjugate(glm::angleAxis(turn, kLeft)));
+  return {turn, swing.y, swing.z};
+}
+Quat humerus(Side side, Vec3 turns) {
+  const Quat swing = from_rotation_vector({0, turns.y, turns.z});
+  return as_left(side, glm::normalize(humerus_middle() * swing * glm::angleAxis(turns.x, kLeft)));
+}
+
+// As rotation_decay, of the humerus.
+Decay shoulder_decay(Side side, const Pose& before, const Pose& shown, const Pose& now,
+                     const Pose& after, float seconds) {
+  const std::size_t j = index(arm(side).root);
+  const auto turns = [&](const Pose& pose) { return humerus_turns(side, pose.rotation[j]); };
+  constexpr float kFastest =
+      12 * kTickSeconds;  // rad a tick: near a swing of half a turn they flip
+  const auto moved = [&](const Pose& a, const Pose& b) {
+    return glm::clamp(turns(b) - turns(a), Vec3(-kFastest), Vec3(kFastest));
+  };
+  const Vec3 going = moved(before, shown), clip_going = moved(now, after);
+  return {turns(shown) + going - turns(now), (going - clip_going) / kTickSeconds, seconds};
+}
+
 // How far a limb reaches, as a share of its length.
 float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
   return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
@@ -103,9 +140,31 @@ Vec3 Decay::value() const {
 Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
     : skeleton_(body), settings_(settings) {}
 
+// A quintic over T s moves by d with an acceleration of at most 5.8 d / T^2 and takes off a
+// velocity v with at most 3.9 v / T. A clip that is stitched to a clip is near it by construction;
+// a body that was simulated may lie or fly anywhere, and takes the longer the more it has to
+// change.
+float Playback::blend_of(const Pose& now, const Pose& after) const {
+  if (!simulated_) return settings_.blend_seconds;
+  constexpr float kMostAcceleration = 25;  // m/s2: of a limb that goes where it should be
+  const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
+  const WorldPose clip = world_pose(skeleton_, now), clip_next = world_pose(skeleton_, after);
+  float seconds = settings_.blend_seconds;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Vec3 moved = shown.position[j] - before.position[j];
+    const float far = glm::distance(shown.position[j] + moved, clip.position[j]);
+    const float fast =
+        glm::distance(moved, clip_next.position[j] - clip.position[j]) / kTickSeconds;
+    seconds = std::max({seconds, std::sqrt(5.8f * far / kMostAcceleration),
+                        3.9f * fast / (2 * kMostAcceleration)});
+  }
+  return std::min(seconds, settings_.longest_blend);
+}
+
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
-  const float seconds = settings_.blend_seconds;
+  const float seconds = blend_seconds_ = blend_of(now, after);
+  after_simulation_ = simulated_;
   const Vec3 moved = shown_.hips - before_.hips;
   const Vec3 clip_moved = after.hips - now.hips;
   hips_ = {shown_.hips + moved - now.hips, (moved - clip_moved) / kTickSeconds, seconds};
@@ -124,9 +183,18 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     const Vec3 clip_hand_moved = world_after.position[hand] - world_now.position[hand];
     arm_reach_[static_cast<std::size_t>(side)] =
         std::min(reach_share(skeleton_, arm(side), shown), 0.995f);
-    hands_[static_cast<std::size_t>(side)] = {
-        shown.position[hand] + hand_moved - world_now.position[hand],
-        (hand_moved - clip_hand_moved) / kTickSeconds, seconds};
+    // Arms that have to turn far go by their joints: led by the hand, their elbows would turn over.
+    const bool by_joints =
+        simulated_ && std::max(glm::length(rotation_[index(arm(side).root)].value()),
+                               glm::length(rotation_[index(arm(side).middle)].value())) > kFarTurn;
+    const auto i = static_cast<std::size_t>(side);
+    hands_[i] = shoulders_[i] = {};
+    if (by_joints) {
+      shoulders_[i] = shoulder_decay(side, before_, shown_, now, after, seconds);
+      continue;
+    }
+    hands_[i] = {shown.position[hand] + hand_moved - world_now.position[hand],
+                 (hand_moved - clip_hand_moved) / kTickSeconds, seconds};
   }
 }
 
@@ -135,15 +203,17 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   const std::size_t end = index(leg(side).end), ball = index(toes(side));
   foot.turn = rotation_decay(world_pose(skeleton_, before_).rotation[end],
                              world_pose(skeleton_, shown_).rotation[end], now.rotation[end],
-                             after.rotation[end], settings_.blend_seconds);
+                             after.rotation[end], blend_seconds_);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
+  foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
+  foot.reach_left = 1;
   if (foot.mode == Mode::held) return;
-  const Vec3 moved = foot.ball - foot.ball_before;
-  const Vec3 offset = foot.ball + moved - now.position[ball];
+  const Vec3 moved = foot.led - foot.led_before;
+  const Vec3 offset = foot.led + moved - now.position[ball];
   const Vec3 velocity = (moved - clip_moved) / kTickSeconds;
   if (foot.mode == Mode::swing) {
-    begin_move(foot, Mode::swing, offset, velocity, settings_.blend_seconds);
+    begin_move(foot, Mode::swing, offset, velocity, blend_seconds_);
   } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown) {
     stand(foot, skeleton_.toe_height());
   } else {
@@ -152,22 +222,38 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   }
 }
 
+// Height of an arc, m, on which a foot that comes down fast does not dip below its goal.
+float Playback::clearing_rise(Decay path, float seconds) {
+  constexpr int kSamples = 12;
+  constexpr float kMost = .15f;  // m
+  float rise = 0;
+  for (int i = 1; i < kSamples; ++i) {
+    path.step(seconds / kSamples);
+    const float arc = std::sin(kPi * static_cast<float>(i) / kSamples);
+    rise = std::max(rise, -path.value().y / (arc * arc));
+  }
+  return std::min(rise, kMost);
+}
+
 // The foot moves to its goal, the clip's or a place on the floor, from `offset` off it. It rises
 // enough to clear the floor half-way, whatever height it starts from.
 void Playback::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
                           float least_seconds) const {
   const float far = glm::length(on_ground(offset)) / settings_.restep_distance;
   foot.mode = mode;
-  foot.rise_seconds = std::max(least_seconds, glm::length(offset) / kStepSpeed);
+  foot.rise_seconds = std::max(
+      {least_seconds, glm::length(offset) / kStepSpeed,
+       after_simulation_ ? std::min(kFastFoot * glm::length(velocity), kLongestStep) : 0.0f});
   foot.offset = {offset, velocity, foot.rise_seconds};
-  foot.rise = std::max(0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2);
+  foot.rise = std::max({0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2,
+                        after_simulation_ ? clearing_rise(foot.offset, foot.rise_seconds) : 0.0f});
   foot.rise_age = 0;
 }
 
 // The foot stands where it is from this tick on, and presses down.
 void Playback::stand(Foot& foot, float floor) const {
-  const Vec3 moved = foot.ball - foot.ball_before;
-  const Vec3 carried = foot.ball + moved;
+  const Vec3 moved = foot.led - foot.led_before;
+  const Vec3 carried = foot.led + moved;
   foot.mode = Mode::held;
   foot.place = on_ground(carried);
   foot.offset = {kUp * (carried.y - floor), kUp * (moved.y / kTickSeconds), settings_.land_seconds};
@@ -181,6 +267,7 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
+  turn_shoulders(clip_pose, pose);
   place_feet(clip_pose, contacts, pose);
   place_hands(clip_pose, pose);
   hips_.step(kTickSeconds);
@@ -198,11 +285,19 @@ const Pose& Playback::next_simulated(const Pose& pose) {
   hips_ = {};
   sink_ = {};
   hands_ = {};
+  shoulders_ = {};
   rotation_.fill({});
-  return show(pose);
+  show(pose);
+  simulated_ = true;
+  for (Foot& foot : feet_) {
+    foot.led_before = foot.ball_before;
+    foot.led = foot.ball;
+  }
+  return shown_;
 }
 
 const Pose& Playback::show(const Pose& pose) {
+  simulated_ = false;
   before_ = started_ ? shown_ : pose;
   for (Foot& foot : feet_) foot.ball_before = foot.ball;
   amend(pose);
@@ -246,8 +341,8 @@ void Playback::Sink::follow(float needed) {
 void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
   const Foot& other_foot = feet_[static_cast<std::size_t>(other(side))];
-  const Vec3 moved = foot.ball - foot.ball_before;
-  const Vec3 carried = foot.ball + moved;  // where it would be shown if nothing changed
+  const Vec3 moved = foot.led - foot.led_before;
+  const Vec3 carried = foot.led + moved;  // where it would be shown if nothing changed
   const Vec3 clip_velocity = (clip_ball - foot.clip_ball) / kTickSeconds;
   const Vec3 velocity = moved / kTickSeconds;
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
@@ -278,8 +373,9 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
     return;
   }
   // 4. A step of its own that has arrived, or that touches the floor on the way.
-  const bool touches =
-      height < kTouching && velocity.y < -kTouchingSpeed && astray > kTouchingAstray;
+  const bool touches = height < kTouching && velocity.y < -kTouchingSpeed &&
+                       astray > kTouchingAstray &&
+                       (!after_simulation_ || glm::length(on_ground(velocity)) < kLandingSpeed);
   if (foot.mode == Mode::step && (foot.offset.done() || touches)) {
     stand(foot, floor);
   }
@@ -312,6 +408,8 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
   foot.rise_age += kTickSeconds;
   // Never under the floor; one that a simulation left there comes up as its offset decays.
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
+  foot.led_before = started_ ? foot.led : ball;
+  foot.led = ball;
   foot.offset.step(kTickSeconds);
   foot.load =
       foot.mode == Mode::held ? std::min(1.0f, foot.load + kTickSeconds / kLoadSeconds) : 0.0f;
@@ -339,10 +437,14 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const Vec3 wanted = ball_of(side, contacts.of(side), clip_world.position[ball], floor);
     height[i] = wanted.y;
     ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
-    const Vec3 line = world.position[index(leg(side).root)] - ankle[i];
-    straightest[i] =
-        std::clamp(reach_share(skeleton_, leg(side), clip_world), kStraightest, kLongest);
+    const Vec3 hip = world.position[index(leg(side).root)];
+    // As straight as the clip's leg or, fading, as it was at the seam.
+    const float seam = kStraightest + (foot.reach - kStraightest) * smooth(foot.reach_left);
+    foot.reach_left = std::max(0.0f, foot.reach_left - kTickSeconds / blend_seconds_);
+    straightest[i] = std::clamp(std::max(seam, reach_share(skeleton_, leg(side), clip_world)),
+                                kStraightest, kLongest);
     const float reach = straightest[i] * skeleton_.leg_length();
+    const Vec3 line = hip - ankle[i];
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
     needed = std::max(needed, smooth(foot.load) * soft_positive(over, 0.004f));
@@ -361,6 +463,16 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
   }
 }
 
+void Playback::turn_shoulders(const Pose& clip_pose, Pose& pose) {
+  for (const Side side : kSides) {
+    Decay& offset = shoulders_[static_cast<std::size_t>(side)];
+    if (offset.done()) continue;
+    const std::size_t j = index(arm(side).root);
+    pose.rotation[j] = humerus(side, humerus_turns(side, clip_pose.rotation[j]) + offset.value());
+    offset.step(kTickSeconds);
+  }
+}
+
 void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
   for (const Side side : kSides) {
@@ -369,7 +481,7 @@ void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
     if (offset.done()) continue;
     // The arm may be as straight as the clip's is or, fading, as it was at the seam; beyond, it
     // eases.
-    const float left = offset.seconds_left() / settings_.blend_seconds;
+    const float left = offset.seconds_left() / blend_seconds_;
     const float seam = kSoftReach + (arm_reach_[i] - kSoftReach) * smooth(left);
     const float soft = std::max({kSoftReach, seam, reach_share(skeleton_, arm(side), clip_world)});
     const Vec3 target =

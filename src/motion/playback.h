@@ -16,6 +16,7 @@ namespace ringcraft {
 
 struct PlaybackSettings {
   float blend_seconds = 0.24f;   // in which a seam's difference falls to nothing
+  float longest_blend = 0.90f;   // s: the same where a simulated body is far from the clip
   float unlock_seconds = 0.20f;  // the same for a lifted foot's way back to the clip
   float land_seconds = 0.10f;    // in which a foot that was set down presses to the floor
   // m: a planted foot farther from the clip's takes a step of its own
@@ -77,7 +78,10 @@ class Playback {
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
     Vec3 ball{}, ball_before{};  // shown
+    Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
     Vec3 clip_ball{};            // the clip's, one tick ago
+    float reach = 0;             // at the seam, as a share of the leg's length
+    float reach_left = 0;        // 1 at the seam .. 0: what of that still counts
   };
 
   struct Sink {
@@ -85,7 +89,10 @@ class Playback {
     void follow(float needed);
   };
 
+  // How long the difference to a clip takes to fall to nothing.
+  float blend_of(const Pose& now, const Pose& after) const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
+  static float clearing_rise(Decay path, float seconds);
   void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);
   void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
   void stand(Foot& foot, float floor) const;
@@ -93,6 +100,7 @@ class Playback {
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
+  void turn_shoulders(const Pose& clip_pose, Pose& pose);
   void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
 
@@ -100,10 +108,14 @@ class Playback {
   PlaybackSettings settings_;
   Pose shown_, before_;
   bool started_ = false;
+  bool simulated_ = false;         // the pose shown last was simulated
+  bool after_simulation_ = false;  // the last seam was one from a simulated pose
+  float blend_seconds_ = 0.24f;    // of the last seam
   std::array<Decay, kJointCount> rotation_;
   Decay hips_;
   Sink sink_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
+  std::array<Decay, 2> shoulders_;        // of arms that go by their joints instead
   std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   std::array<Foot, 2> feet_;
   float since_step_ = 1;  // s: since a foot took a step of its own

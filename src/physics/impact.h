@@ -71,10 +71,11 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input);
 
 // The shown response: a second simulation, active, from the same start, aimed at `target` (world
 // poses, one a tick from the contact on). Returns `ticks` world poses, the first one tick after the
-// contact. A knockdown falls with bracing arms and comes to rest; a knockout falls limp.
+// contact. A knockdown falls with bracing arms and comes to rest; where there are `lying` poses,
+// from which get-ups start, it settles toward the nearest. A knockout falls limp.
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
-                                    Tick ticks);
+                                    Tick ticks, std::span<const Pose> lying = {});
 
 // Damage of a blow in thousandths of a point, by impulse and zone; a clean jab to the head costs
 // about 3 points, a cross 7, a hook 8, a roundhouse to the body 12. A fighter starts with 100.

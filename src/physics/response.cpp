@@ -73,6 +73,18 @@ std::array<Vec3, kJointCount> shape_of(const Skeleton& skeleton, const Pose& pos
   return shape;
 }
 
+// What a joint counts for when lying poses are compared: limbs can be moved, a trunk has to roll.
+float lying_weight(Joint joint) {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      if (joint == limb.middle) return .15f;
+      if (joint == limb.end) return .05f;
+    }
+    if (joint == toes(side)) return 0;
+  }
+  return 1;
+}
+
 // Yaw of the line from the hips to the head: the heading of a body that lies.
 float yaw_of_body(const Skeleton& skeleton, const Pose& pose) {
   const WorldPose world = world_pose(skeleton, pose);
@@ -106,22 +118,37 @@ ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outc
   return best;
 }
 
-ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose) {
-  const float scale = skeleton.height / kCanonicalHeight;
-  const auto lying = shape_of(skeleton, pose, yaw_rotation(-yaw_of_body(skeleton, pose)));
-  ActionId best;
+std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose) {
+  const auto is = shape_of(skeleton, pose, yaw_rotation(-yaw_of_body(skeleton, pose)));
+  std::size_t best = 0;
   float least = std::numeric_limits<float>::max();
-  for (const ActionId id : library.get_ups()) {
-    const Pose start = scaled(library.action(id).clip.at(0), scale);
-    const auto shape = shape_of(skeleton, start, yaw_rotation(-yaw_of_body(skeleton, start)));
+  for (std::size_t k = 0; k < lying.size(); ++k) {
+    const auto shape = shape_of(skeleton, lying[k], yaw_rotation(-yaw_of_body(skeleton, lying[k])));
     float sum = 0;
-    for (std::size_t i = 0; i < kJointCount; ++i) sum += glm::distance2(shape[i], lying[i]);
-    if (!best.valid() || sum < least) {
-      best = id;
+    for (std::size_t i = 0; i < kJointCount; ++i) {
+      sum += lying_weight(joint_at(i)) * glm::distance2(shape[i], is[i]);
+    }
+    if (sum < least) {
+      best = k;
       least = sum;
     }
   }
   return best;
+}
+
+std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton) {
+  std::vector<Pose> poses;
+  poses.reserve(library.get_ups().size());
+  for (const ActionId id : library.get_ups()) {
+    poses.push_back(scaled(library.action(id).clip.at(0), skeleton.height / kCanonicalHeight));
+  }
+  return poses;
+}
+
+ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose) {
+  if (library.get_ups().empty()) return {};
+  const std::vector<Pose> lying = lying_poses(library, skeleton);
+  return library.get_ups()[nearest_lying(skeleton, lying, pose)];
 }
 
 }  // namespace ringcraft

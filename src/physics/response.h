@@ -1,6 +1,9 @@
 #pragma once
 // Which action of the library answers an outcome.
 
+#include <span>
+#include <vector>
+
 #include "motion/library.h"
 #include "physics/impact.h"
 
@@ -18,7 +21,14 @@ bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 // Equal ones: the lower index. The library must hold one response at least.
 ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing);
 
-// The get-up that starts from the lying pose nearest to `pose` (joint positions about the root).
+// Which of the lying poses is nearest to `pose`: by where the trunk's joints are about the hips and
+// how high, the limbs counting for less, since a lying body can move those. Not for an empty list.
+std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose);
+
+// The poses that the library's get-ups start from, for that body, in their order.
+std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton);
+
+// The get-up that starts from the lying pose nearest to `pose`.
 ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose);
 
 }  // namespace ringcraft

@@ -5,6 +5,7 @@
 
 #include "motion/ik.h"
 #include "physics/impact_frame.h"
+#include "physics/response.h"
 
 namespace ringcraft {
 namespace {
@@ -17,9 +18,13 @@ constexpr float kProtect = .10f;                   // s: from here on a falling 
 constexpr float kLimpTone = .03f;                  // of a knocked-out body; 0 looks like a sack
 constexpr float kLyingTone = .08f;
 constexpr float kLetDownTone = .3f;
-constexpr float kFade = .6f;               // s after the landing in which the muscles let go
-constexpr float kResting = .15f;           // m/s
-constexpr float kRestFor = .25f;           // s
+constexpr float kFade = .6f;  // s after the landing in which the muscles let go
+constexpr float kGatherFrom = .25f, kGatherUntil = 1.1f;  // s after the landing
+constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
+constexpr float kGatherTone = .4f;
+constexpr float kRolling = .6f;   // m/s: a body that moves faster has not found its lying pose
+constexpr float kResting = .15f;  // m/s
+constexpr float kRestFor = .25f;  // s
 constexpr float kMostAfterLanding = 2.5f;  // s
 constexpr int kPunchSteps = 3;     // of 1/240 s over which a punch's impulse is spread (12 ms)
 constexpr int kKickSteps = 12;     // of a kick (50 ms)
@@ -95,11 +100,20 @@ Pose protective_pose(const Pose& now, float direction) {
   return pose;
 }
 
-// What a body lies down to once its trunk is on the ground: the legs come down, the arms stay.
-Pose lying_pose(const Pose& now) {
-  Pose pose = now;
+// What a body lies down to once its trunk is on the ground: the arms stay, the legs come down, bent
+// with the soles on the floor on its back, straight on its face, where bent knees hold the shins in
+// the air.
+Pose lying_pose(const BodyModel& body, const Pose& aimed, const Pose& now) {
+  Pose pose = aimed;
   bend(pose, 5, 2, 2);
-  set_legs(pose, 30, 55);
+  const Vec3 chest_faces = world_pose(body.skeleton, now).rotation[index(Joint::chest)] * kForward;
+  const float up = smooth((chest_faces.y + .7f) / 1.2f);  // 0 on the face, 1 on side or back
+  set_legs(pose, 30 * up, 55 * up);
+  if (up < .5f) {
+    for (const Side side : {Side::left, Side::right}) {
+      pose.rotation[index(leg(side).end)] = from_rotation_vector({radians(45), 0, 0});
+    }
+  }
   return pose;
 }
 
@@ -215,17 +229,19 @@ class Mender {
 class Shown {
  public:
   Shown(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
-        std::span<const Pose> target)
+        std::span<const Pose> target, std::span<const Pose> lying)
       : body_(body),
         outcome_(outcome),
         tone_(input.tone),
         target_(target),
+        lying_(lying),
         frame_(body, input),
         ragdoll_(body, frame_.pose(), frame_.before(), kTickSeconds,
                  {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
         balance_(body, frame_),
         mend_(body),
         within_(frame_.pose()),
+        into_clip_(seconds_into_clip()),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
@@ -272,8 +288,17 @@ class Shown {
     return frame_.in(target_[static_cast<std::size_t>(std::clamp(tick, 0, last))]);
   }
 
+  // The aim goes to the clip in kIntoClip, or slower where a limb has far to go (a kick's leg): on
+  // the way of a smoothstep over T s a distance d takes 6 d / T^2 of acceleration.
+  float seconds_into_clip() const {
+    constexpr float kMostAcceleration = 50;  // m/s2
+    const float far = largest_joint_distance(world_pose(body_.skeleton, frame_.continued(0)),
+                                             world_pose(body_.skeleton, clip(0)));
+    return std::max(kIntoClip, std::sqrt(6 * far / kMostAcceleration));
+  }
+
   Pose aim(Tick tick) const {
-    const float share = smooth(static_cast<float>(tick) * kTickSeconds / kIntoClip);
+    const float share = smooth(static_cast<float>(tick) * kTickSeconds / into_clip_);
     if (share >= 1) return clip(tick);
     return mix(frame_.continued(tick), clip(tick), share);
   }
@@ -303,8 +328,16 @@ class Shown {
     if (landed_ < 0) return tone;
     const float gone = std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
+    const float since = now - landed_;
+    if (!lying_.empty()) {
+      // It gathers itself: as it lies, limbs go to where the get-up will need them.
+      const float gather = smooth((since - kGatherFrom) / kGatherIn) *
+                           (1 - smooth((since - kGatherUntil) / kGatherIn));
+      for (float& t : tone) t = glm::mix(t, kGatherTone, gather);
+    }
     // The legs are let down before they, too, let go.
-    const float legs = glm::mix(kLetDownTone, kLyingTone, smooth((now - landed_) / kFade - 1));
+    const float legs = glm::mix(kLetDownTone, kLyingTone,
+                                smooth((since - (lying_.empty() ? kFade : kGatherUntil)) / kFade));
     for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) tone[i] = legs;
     return tone;
   }
@@ -325,7 +358,18 @@ class Shown {
       protecting_ = true;
       ragdoll_.set_servo(.10f, true);
     }
+    if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ > kGatherFrom) {
+      gather();
+    }
     ragdoll_.track(protective_, protective_, protective_, kTickSeconds);
+  }
+
+  // Aims at the nearest lying pose; while the body still rolls, that may change.
+  void gather() {
+    if (gathering_ && glm::length(ragdoll_.motion(Part::chest).velocity) < kRolling) return;
+    gathering_ = true;
+    const Pose shown = frame_.out(ragdoll_.pose());
+    protective_ = frame_.in(lying_[nearest_lying(body_.skeleton, lying_, shown)]);
   }
 
   Pose fall_tick(Tick tick) {
@@ -339,7 +383,7 @@ class Shown {
     const Pose pose = ragdoll_.pose();
     if (landed_ < 0 && trunk_down(body_, pose)) {
       landed_ = now;
-      if (!outcome_.knockout) protective_ = lying_pose(protective_);
+      protective_ = lying_pose(body_, protective_, pose);
     }
     still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
@@ -353,15 +397,16 @@ class Shown {
   const BodyModel& body_;
   const ImpactOutcome& outcome_;
   float tone_;
-  std::span<const Pose> target_;
+  std::span<const Pose> target_, lying_;
   ImpactFrame frame_;
   Ragdoll ragdoll_;
   Balance balance_;
   Mender mend_;
   bool stopped_ = false;  // some joint is being driven back
   Pose within_;           // the last pose looked at
+  float into_clip_;       // s
   int steps_of_blow_;
-  bool protecting_ = false;
+  bool protecting_ = false, gathering_ = false;
   Pose protective_;
   float landed_ = -1;  // s: when the trunk met the ground; before that negative
   float still_ = 0;    // s for which everything has been at rest
@@ -372,8 +417,8 @@ class Shown {
 
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
-                                    Tick ticks) {
-  return Shown(body, input, outcome, target).run(ticks);
+                                    Tick ticks, std::span<const Pose> lying) {
+  return Shown(body, input, outcome, target, lying).run(ticks);
 }
 
 }  // namespace ringcraft

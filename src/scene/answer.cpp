@@ -24,7 +24,8 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   for (Tick t = 0; t <= ticks; ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
-  answer.simulated = simulate_response(body, input, outcome, target, ticks);
+  answer.simulated =
+      simulate_response(body, input, outcome, target, ticks, lying_poses(library, body.skeleton));
   return answer;
 }
 

@@ -99,18 +99,20 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
     a.answers += event.type == EventType::response || event.type == EventType::knockdown ? 1 : 0;
   }
   constexpr Tick kSimulated = 18;
+  // What is shown of a seam: until the difference has fallen to nothing (playback.h).
+  constexpr Tick kBlend = 108, kShortBlend = 30;
   for (std::size_t i = 1; i < track.segments.size(); ++i) {
     const Segment& s = track.segments[i];
     const Tick start = s.launch.start;
     if (start < answer->hit_tick) continue;
     if (s.kind == Kind::response) {
       if (!a.falls)
-        a.into_clip = seam_over(library, body, track, s.launch, start + kSimulated - 1,
-                                start + kSimulated + 8);
+        a.into_clip = seam_over(library, body, track, s.launch, start + kSimulated + 1,
+                                start + kSimulated + kBlend);
     } else if (s.kind == Kind::get_up) {
-      a.into_get_up = seam_over(library, body, track, s.launch, start, start + 8);
+      a.into_get_up = seam_over(library, body, track, s.launch, start, start + kBlend);
     } else {
-      const Seam seam = seam_over(library, body, track, s.launch, start, start + 8);
+      const Seam seam = seam_over(library, body, track, s.launch, start, start + kShortBlend);
       a.back_to_guard.velocity = std::max(a.back_to_guard.velocity, seam.velocity);
       a.back_to_guard.apart = std::max(a.back_to_guard.apart, seam.apart);
     }
@@ -215,6 +217,11 @@ void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
     rows.held(fmt::format("pop {}: velocity jump, worst of {} (median {:.2f})", name,
                           velocity.size(), quantile(velocity, .5)),
               "m/s", quantile(velocity, 1), "real captures 2.0-2.7", at_most(1.5));
+    rows.said(fmt::format("pop {}: seams under 1.5 m/s", name), "%",
+              share(static_cast<std::size_t>(std::count_if(velocity.begin(), velocity.end(),
+                                                           [](double v) { return v <= 1.5; })),
+                    velocity.size()),
+              "");
     rows.held(fmt::format("pop {}: joint jump beyond its motion, worst", name), "m",
               quantile(apart, 1), "", at_most(.025));
   };
