@@ -253,6 +253,14 @@ Result<MotionLibrary> checked(const std::filesystem::path& source, MotionLibrary
   return library;
 }
 
+void add_blends(std::vector<Action>& actions, const LibraryBuildSettings& settings,
+                std::vector<std::string>& notes) {
+  std::vector<Action> made =
+      interpolated(canonical_skeleton(), actions, InterpolationSettings{}, settings.judge, notes);
+  actions.reserve(actions.size() + made.size());
+  for (Action& action : made) actions.push_back(std::move(action));
+}
+
 Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
                                    const LibraryBuildSettings& settings) {
   std::vector<std::string> notes;
@@ -263,6 +271,7 @@ Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
   if (actions->empty())
     return input_error(folder.string(), "", "no action was found in its captures",
                        notes.empty() ? "name a folder that holds captures" : notes.front());
+  if (settings.interpolate.value_or(true)) add_blends(*actions, settings, notes);
   if (!settings.responses_from.empty()) {
     const std::filesystem::path manifest =
         library_source(std::filesystem::path(settings.responses_from));
@@ -296,6 +305,7 @@ Result<MotionLibrary> build_library(const std::filesystem::path& source,
   Collector out;
   out.notes = &notes;
   if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
+  if (settings.interpolate.value_or(false)) add_blends(out.actions, settings, notes);
   return checked(source, connected_library(document->value["name"].get<std::string>(),
                                            std::move(out.actions), std::move(notes), settings));
 }

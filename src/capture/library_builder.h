@@ -3,10 +3,12 @@
 // first and compiled from the second.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "motion/interpolation.h"
 #include "motion/library.h"
 
 namespace ringcraft {
@@ -17,7 +19,11 @@ struct LibraryBuildSettings {
   std::string responses_from = "kickboxing";
   bool mirrored = true;  // a folder's actions also as the other side would do them
   bool connect = true;   // with a motion graph, and ways through it where they are shorter
-  int threads = 1;       // never changes the result
+  // Blends between repetitions where outcomes leave room (motion/interpolation.h). Unset: of a
+  // folder's captures, and not of a manifest's actions.
+  std::optional<bool> interpolate;
+  Judge judge;      // what else a blend has to pass; none where it is empty
+  int threads = 1;  // never changes the result
 };
 
 // Builds a library from a manifest (assets/schemas/manifest.schema.json) or from a folder of

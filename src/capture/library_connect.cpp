@@ -1,5 +1,8 @@
 // A library with its motion graph.
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "capture/library_builder.h"
@@ -30,6 +33,13 @@ MotionLibrary connected_library(const std::string& name, std::vector<Action> act
                                 const LibraryBuildSettings& settings) {
   const Skeleton skeleton = canonical_skeleton();
   const StateMachineSettings machine;
+  // Blends follow what they are made of frame by frame: they lead where these do, by edges of their
+  // own, and would only double the graph.
+  const auto first_blend = std::stable_partition(
+      actions.begin(), actions.end(), [](const Action& action) { return !is_blend(action); });
+  std::vector<Action> blends(std::make_move_iterator(first_blend),
+                             std::make_move_iterator(actions.end()));
+  actions.erase(first_blend, actions.end());
   MotionGraph graph;
   if (settings.connect) {
     GraphSettings of_graph;
@@ -40,6 +50,7 @@ MotionLibrary connected_library(const std::string& name, std::vector<Action> act
         connecting_actions(skeleton, actions, sources, graph, machine, {});
     for (Action& action : connecting) actions.push_back(std::move(action));
   }
+  for (Action& action : blends) actions.push_back(std::move(action));
   MotionLibrary all(name, std::move(actions), machine);
   const std::vector<bool> used = on_paths(all);
   std::vector<Action> kept;

@@ -56,6 +56,11 @@ struct LibraryBuildOptions {
   std::string source;  // manifest or folder of captures
   std::string responses_from = "kickboxing";
   bool not_mirrored = false, not_connected = false;
+  bool interpolate = false, not_interpolated = false;  // neither: a folder is, a manifest is not
+};
+
+struct InterpolateOptions {
+  int wanted = 200;  // outcomes for each family
 };
 
 // Set by SIGINT and SIGTERM.
@@ -72,6 +77,8 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options);
 int run_replay(const std::string& events_file, const CommonOptions& options);
 int run_library_build(const LibraryBuildOptions& build, const CommonOptions& options);
 int run_library_inspect(const std::string& library, const CommonOptions& options);
+int run_library_interpolate(const std::string& library, const InterpolateOptions& asked,
+                            const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);
 int run_schema(const std::string& name);
 

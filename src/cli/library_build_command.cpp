@@ -9,6 +9,7 @@
 #include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
+#include "scene/blend_judge.h"
 
 namespace ringcraft {
 
@@ -30,8 +31,11 @@ double mean_path(const MotionLibrary& library) {
 }
 
 nlohmann::json summary_of(const MotionLibrary& library) {
-  std::size_t connecting = 0;
-  for (const Action& action : library.actions()) connecting += action.connects ? 1u : 0u;
+  std::size_t connecting = 0, blends = 0;
+  for (const Action& action : library.actions()) {
+    connecting += action.connects ? 1u : 0u;
+    blends += is_blend(action) ? 1u : 0u;
+  }
   return {{"name", library.name()},
           {"hash", hash_name(library.hash())},
           {"actions",
@@ -44,6 +48,7 @@ nlohmann::json summary_of(const MotionLibrary& library) {
           {"responses", library.count(Kind::response)},
           {"get_ups", library.count(Kind::get_up)},
           {"connecting", connecting},
+          {"blends", blends},
           {"dropped", library.dropped()},
           {"notes", library.notes()},
           {"mean_path_ticks", mean_path(library)},
@@ -61,6 +66,8 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   settings.responses_from = build.responses_from == "none" ? "" : build.responses_from;
   settings.mirrored = !build.not_mirrored;
   settings.connect = !build.not_connected;
+  if (build.interpolate || build.not_interpolated) settings.interpolate = build.interpolate;
+  settings.judge = joint_limit_judge();
   settings.threads = options.threads;
   const auto begin = std::chrono::steady_clock::now();
   const auto library = build_library(library_source(build.source), settings);
@@ -87,14 +94,14 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   const auto number = [&](const char* key) { return summary[key].get<std::size_t>(); };
   fmt::print(
       "{}: {} actions ({} attacks, {} combinations, {} defenses, {} transitions, {} idles, {} "
-      "responses, {} get-ups), {} dropped\n"
+      "responses, {} get-ups; {} of them blends), {} dropped\n"
       "motion graph: {} transitions between {} clips; {} short ways of it connect actions; from "
       "one "
       "action to the next {:.1f} ticks in the mean\n",
       file.string(), number("actions"), number("attacks"), number("combinations"),
       number("defenses"), number("transitions"), number("idles"), number("responses"),
-      number("get_ups"), library->dropped().size(), library->graph().transitions.size(),
-      library->graph().clips.size(), number("connecting"),
+      number("get_ups"), number("blends"), library->dropped().size(),
+      library->graph().transitions.size(), library->graph().clips.size(), number("connecting"),
       summary["mean_path_ticks"].get<double>());
   return 0;
 }

@@ -141,9 +141,25 @@ int run(int argc, char** argv) {
       ->type_name("NAME");
   build->add_flag("--not-mirrored", build_options.not_mirrored,
                   "No action also for the other side");
+  auto* interpolated = build->add_flag("--interpolate", build_options.interpolate,
+                                       "Blends between repetitions also of a manifest's actions");
+  build
+      ->add_flag("--not-interpolated", build_options.not_interpolated,
+                 "No blends between a folder's repetitions")
+      ->excludes(interpolated);
   build->add_flag("--not-connected", build_options.not_connected, "Without the motion graph");
   add_common(*build, options);
   build->callback([&] { code = run_library_build(build_options, options); });
+  InterpolateOptions interpolate_options;
+  CLI::App* interpolate = library->add_subcommand(
+      "interpolate", "How near blends of repetitions come to wanted targets, steps and turns");
+  interpolate->add_option("LIBRARY", library_name,
+                          "Library file, manifest, folder, or the name of one in assets");
+  interpolate->add_option("--wanted", interpolate_options.wanted, "Wanted outcomes for each family")
+      ->check(CLI::Range(1, 10000));
+  add_common(*interpolate, options);
+  interpolate->callback(
+      [&] { code = run_library_interpolate(library_name, interpolate_options, options); });
   CLI::App* inspect = library->add_subcommand("inspect", "Every action as a filmstrip and a table");
   inspect->add_option("LIBRARY", library_name,
                       "Library file, manifest, folder, or the name of one in assets");

@@ -47,7 +47,7 @@ TEST(ActionGraphPicture, SaysWhatTheStateMachineSays) {
 
 TEST(ActionGraphPicture, NamesAreEscapedAndFieldsDrawn) {
   const std::string svg = picture_svg(action_graph(small_library()), "graph");
-  EXPECT_THAT(svg, HasSubstr("stand&lt;1>"));
+  EXPECT_THAT(svg, HasSubstr("stand&lt;1&gt;"));
   EXPECT_THAT(svg, HasSubstr("id='graph'"));
   EXPECT_THAT(svg, HasSubstr("fill='#11623a' d='M"));
 }
