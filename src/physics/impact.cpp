@@ -133,7 +133,8 @@ float swept_by(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& r
 
 }  // namespace
 
-ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
+ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
+                           const KeptOwnMotion& kept) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
   ragdoll.set_tone(tone_of(input.tone));
@@ -163,7 +164,8 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input) {
   };
   Base::Beyond beyond = excess({});
   if (beyond.distance > 0) {
-    beyond = excess(carried_by_the_action(body, frame, tone_of(input.tone), start));
+    const auto run = [&] { return carried_by_the_action(body, frame, tone_of(input.tone), start); };
+    beyond = excess(kept ? kept(frame.mirrored(), run) : run());
   }
   const float swept = swept_by(body, frame, ragdoll);
   if (swept > 0) beyond.distance = std::max(beyond.distance, swept);

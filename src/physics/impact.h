@@ -2,6 +2,7 @@
 // The hit: strike -> impulse -> ragdoll impulse step in Bullet -> response. Design section 6.
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "physics/contact.h"
@@ -65,9 +66,16 @@ struct ImpactOutcome {
   bool operator==(const ImpactOutcome&) const = default;
 };
 
+// How far out of its base the body's own motion carries it, m, is the same for every blow on one
+// posed body; finding it takes a second run of the ragdoll, without the blow. Who tries many blows
+// keeps it: asked for one of the two sides (`mirrored`: the canonical frame has the blow go left),
+// it answers what `run` gave the first time, or calls it.
+using KeptOwnMotion = std::function<Vec3(bool mirrored, const std::function<Vec3()>& run)>;
+
 // A fresh Bullet world in a canonical frame (root at the origin, heading removed), 24 steps of
 // 1/240 s, then the decision by capturability and head rotation. Same input, same bits.
-ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input);
+ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
+                           const KeptOwnMotion& kept = {});
 
 // The shown response: a second simulation, active, from the same start, aimed at `target` (world
 // poses, one a tick from the contact on). Returns `ticks` world poses, the first one tick after the

@@ -20,6 +20,7 @@ class ImpactFrame {
   const Pose& continued(int tick) const;  // clamped to the last
   const Blow& blow() const { return blow_; }
   FootContacts contacts() const { return contacts_; }
+  bool mirrored() const { return mirrored_; }
   float lowered() const { return lowered_; }  // m: by how much the body was let down to stand
 
   Pose in(const Pose& world) const;

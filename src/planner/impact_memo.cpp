@@ -166,7 +166,7 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impuls
   return steps;
 }
 
-ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
+ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const {
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
   const ActionTable& action = victim.at(steps.moment.action);
   const Tick age = action.clamped(steps.moment.age);
@@ -191,7 +191,7 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps) const {
   input.blow.blocked = steps.blocked;
   input.contacts = action.action->clip.contacts_at(age);
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
-  if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input);
+  if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input, own);
   answer.response = choose_response(victim.library(), answer.outcome, facing);
   answer.damage = damage_of(input.blow, answer.outcome);
   return turned(answer, -facing);
@@ -206,11 +206,19 @@ ImpactAnswer ImpactMemo::turned(ImpactAnswer answer, float yaw) {
   return answer;
 }
 
-ImpactAnswer ImpactMemo::kept(const ImpulseSteps& steps) const {
-  if (store_ == nullptr) return answer_of(steps);
+KeptOwnMotion ImpactMemo::own_motion(const ImpulseSteps& steps) {
+  return [this, steps](bool mirrored, const std::function<Vec3()>& run) {
+    Packer p;
+    p.add(steps.moment.action.value, 13).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
+    return looked_up(own_motions_, {p.a(), static_cast<std::uint64_t>(steps.victim)}, run);
+  };
+}
+
+ImpactAnswer ImpactMemo::kept(const ImpulseSteps& steps) {
+  if (store_ == nullptr) return answer_of(steps, own_motion(steps));
   const Key key{steps.key(), worlds_[static_cast<std::size_t>(steps.victim)]};
   if (const auto found = store_->find(key)) return *found;
-  ImpactAnswer answer = answer_of(steps);
+  ImpactAnswer answer = answer_of(steps, own_motion(steps));
   store_->add(key, answer);
   return answer;
 }
@@ -240,11 +248,11 @@ ImpactAnswer ImpactMemo::answer(const LandedBlow& blow) {
 
 ImpactAnswer ImpactMemo::recomputed(const LandedBlow& blow) const {
   const BlowSteps steps = steps_of(blow);
-  return turned(answer_of(steps_of(steps, impulse_of(steps))), root_yaw(steps));
+  return turned(answer_of(steps_of(steps, impulse_of(steps)), {}), root_yaw(steps));
 }
 
 std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t strike,
-                                      int victim) const {
+                                      int victim) {
   const MotionTables& tables = *bodies_[static_cast<std::size_t>(attacker)];
   const ActionTable& action = tables.at(attack);
   const StrikeTable& blow = action.strikes[strike];

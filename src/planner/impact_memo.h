@@ -47,7 +47,7 @@ class ImpactMemo {
   ImpactAnswer recomputed(const LandedBlow& blow) const;
 
   // Damage of a strike that meets a standing, unguarded body at its best speed, thousandths.
-  std::int32_t clean_damage(int attacker, ActionId attack, std::size_t strike, int victim) const;
+  std::int32_t clean_damage(int attacker, ActionId attack, std::size_t strike, int victim);
 
   struct Counts {
     // Neither depends on the number of threads, nor on what a store holds.
@@ -91,8 +91,10 @@ class ImpactMemo {
   Vec3 impulse_of(const BlowSteps& steps) const;
   ImpulseSteps steps_of(const BlowSteps& blow, Vec3 impulse) const;
   float root_yaw(const BlowSteps& blow) const;  // of the struck body, in its action space
-  ImpactAnswer answer_of(const ImpulseSteps& steps) const;  // seen from the struck body's root
-  ImpactAnswer kept(const ImpulseSteps& steps) const;       // the same, out of the store
+  // Seen from the struck body's root. `own`: what the struck body does without the blow, kept.
+  ImpactAnswer answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const;
+  ImpactAnswer kept(const ImpulseSteps& steps);  // the same, out of the store
+  KeptOwnMotion own_motion(const ImpulseSteps& steps);
   static ImpactAnswer turned(ImpactAnswer answer, float yaw);
   template <class Value, class Compute>
   const Value& looked_up(Shards<Value>& shards, const Key& key, const Compute& compute);
@@ -104,6 +106,7 @@ class ImpactMemo {
   std::shared_ptr<ImpactStore> store_;
   Shards<Vec3> impulses_;
   Shards<ImpactAnswer> answers_;
+  Shards<Vec3> own_motions_;  // by pose class and side
 };
 
 }  // namespace ringcraft

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/random.h"
 #include "physics/hit.h"
@@ -85,6 +86,36 @@ TEST_F(Impact, SameInputGivesTheSameBits) {
     (void)outcome_of(body, square, Part::head, -impulse);  // nothing is carried over
     EXPECT_EQ(first, outcome_of(body, fighting, part, impulse, {.01f, .02f, .03f}));
   }
+}
+
+TEST_F(Impact, TheOwnMotionOfAPosedBodyIsRunOnceASideAndKeptToTheSameBits) {
+  std::array<std::optional<Vec3>, 2> own;
+  int runs = 0, asked = 0;
+  const KeptOwnMotion kept = [&](bool mirrored, const std::function<Vec3()>& run) {
+    std::optional<Vec3>& side = own[mirrored ? 1 : 0];
+    ++asked;
+    if (!side) {
+      side = run();
+      ++runs;
+    }
+    return *side;
+  };
+  std::vector<Pose> leaning(kImpulseStepTicks + 1,
+                            fighting);  // so that there is a motion of its own
+  for (std::size_t i = 0; i < leaning.size(); ++i) {
+    leaning[i].hips.z += .012f * static_cast<float>(i);
+  }
+  for (const float x : {60.0f, -60.0f, 90.0f, -90.0f}) {
+    for (const Part part : {Part::chest, Part::head, Part::pelvis}) {
+      Hit hit(body, fighting, part, {x, 0, 40});
+      hit.input.continued = leaning;
+      hit.input.pose_before.hips.z -= .012f;
+      EXPECT_EQ(impulse_step(body, hit.input, kept), impulse_step(body, hit.input));
+    }
+  }
+  EXPECT_EQ(runs, 2);
+  EXPECT_GT(asked, 8);
+  EXPECT_NE(*own[0], *own[1]);
 }
 
 TEST_F(Impact, WhereTheFightStandsDoesNotMatter) {

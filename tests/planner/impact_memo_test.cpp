@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "capture/library_builder.h"
 #include "planner/plan.h"
+#include "planner/root_search.h"
 
 namespace ringcraft {
 namespace {
@@ -132,6 +133,30 @@ TEST_F(ImpactMemoTest, StoreChangesNeitherAnswersNorCounts) {
   EXPECT_EQ(store->size(), held);
   EXPECT_EQ(second.counts().entries, first.counts().entries);
   EXPECT_EQ(second.counts().lookups, first.counts().lookups);
+}
+
+TEST_F(ImpactMemoTest, ManyBlowsOnOnePoseAreAnsweredAsEachByItself) {
+  ImpactMemo memo({&tables()});
+  const std::vector<Met> blows = random_blows(4, 12);
+  std::vector<LandedBlow> asked;
+  for (const Met& one : blows) {
+    for (const float harder : {1.0f, 1.5f, 2.0f}) {
+      for (const float turned : {0.0f, 1.6f, -1.6f}) {
+        LandedBlow blow = one.blow;
+        blow.contact.velocity = harder * (yaw_rotation(turned) * blow.contact.velocity);
+        blow.contact.normal = yaw_rotation(turned) * blow.contact.normal;
+        asked.push_back(blow);
+      }
+    }
+  }
+  std::vector<ImpactAnswer> together(asked.size());
+  run_tasks(asked.size(), 2, [&](std::size_t i) { together[i] = memo.answer(asked[i]); });
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(together[i], memo.recomputed(asked[i])) << i;
+    moved += together[i].outcome.response == ResponseKind::absorb ? 0u : 1u;
+  }
+  EXPECT_GT(moved, 2u);  // only for these is the own motion asked
 }
 
 TEST_F(ImpactMemoTest, StoreKeepsBodiesApart) {
