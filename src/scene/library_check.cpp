@@ -19,6 +19,7 @@ constexpr double kMostFootSkate = 0.01;
 constexpr double kMostSelfPenetration = 0.02;  // m
 constexpr double kMostAimError = 0.03;         // m
 constexpr float kStill = 0.15f;                // m/s
+constexpr double kMostSeamJump = 1.5;          // m/s
 
 double peak_speed(const Skeleton& skeleton, const Action& action) {
   double peak = 0;
@@ -216,6 +217,32 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
   }
 }
 
+// A seam that jumps is a fault of the two actions that meet in it; the worst one out of each.
+void add_seam_faults(const MotionLibrary& library, LibraryCheck& check) {
+  std::vector<const SeamMeasures*> worst(library.actions().size(), nullptr);
+  for (const SeamMeasures& seam : check.seams) {
+    const SeamMeasures*& known = worst[seam.from.at()];
+    if (seam.jump > kMostSeamJump && (known == nullptr || seam.jump > known->jump)) known = &seam;
+  }
+  for (const SeamMeasures* seam : worst) {
+    if (seam == nullptr) continue;
+    check.faults.push_back(
+        fmt::format("{}: the seam to {} jumps, {} by {:.1f} m/s", library.action(seam->from).name,
+                    library.action(seam->to).name, vrm_name(seam->joint), seam->jump));
+  }
+}
+
+void add_seam_gates(LibraryCheck& check) {
+  if (check.seams.empty()) return;
+  std::vector<double> jumps;
+  jumps.reserve(check.seams.size());
+  for (const SeamMeasures& seam : check.seams) jumps.push_back(seam.jump);
+  std::sort(jumps.begin(), jumps.end());
+  const std::size_t n = jumps.size();
+  check.gates.push_back({"seams, jump of velocity, 99 %", jumps[n * 99 / 100], 0, 1, "m/s"});
+  check.gates.push_back({"seams, jump of velocity, worst", jumps[n - 1], 0, kMostSeamJump, "m/s"});
+}
+
 void add_kind_faults(const MotionLibrary& library, LibraryCheck& check) {
   if (!has_response(library, ResponseKind::absorb, 0))
     check.faults.emplace_back("no response that absorbs");
@@ -318,11 +345,14 @@ LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick
   LibraryCheck check;
   check.actions = measure(library);
   check.strikes = measure_strikes(library);
+  check.seams = measure_seams(library);
   check.yardstick = std::move(yardstick);
   add_action_faults(library, check);
+  add_seam_faults(library, check);
   add_kind_faults(library, check);
   add_speed_gates(check);
   add_motion_gates(check);
+  add_seam_gates(check);
   add_yardstick_gates(check);
   for (const Gate& gate : check.gates) {
     if (gate.passed()) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motion/library.h"
+#include "scene/library_check_seams.h"
 #include "scene/library_check_strikes.h"
 #include "scene/library_check_yardstick.h"
 
@@ -47,6 +48,7 @@ struct Gate {
 struct LibraryCheck {
   std::vector<ActionMeasures> actions;
   std::vector<StrikeMeasures> strikes;
+  std::vector<SeamMeasures> seams;
   std::optional<Yardstick> yardstick;
   std::vector<Gate> gates;
   std::vector<std::string> faults;  // one line each; empty for a good library
