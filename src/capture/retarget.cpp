@@ -21,7 +21,8 @@ constexpr double kLongestCapture = 1800;  // s: what is read cannot exhaust the 
 struct RestFit {
   JointMap map;
   std::array<Quat, kJointCount> bone{};
-  float scale = 1;         // file units to metres of the body it goes to
+  std::array<Vec3, 2> foot{kForward, kForward};  // per side, the captured foot's bone in ours
+  float scale = 1;                               // file units to metres of the body it goes to
   Quat level{1, 0, 0, 0};  // turns the capture's floor, as its feet found it, to ours
 };
 
@@ -54,6 +55,7 @@ Result<RestFit> lay_on(const RawClip& raw, const SkeletonProfile& profile, const
     if (glm::length(Vec3(foot.x, 0, foot.z)) > 0.3f * glm::length(foot)) {
       fit.bone[index(leg(side).end)] = yaw_rotation(yaw_of(foot));
       fit.bone[index(toes(side))] = fit.bone[index(leg(side).end)];
+      fit.foot[at(side)] = glm::inverse(fit.bone[index(leg(side).end)]) * glm::normalize(foot);
     }
     leg_units += 0.5f * (glm::length(rest_bone(rest, *map, leg(side).root, leg(side).middle)) +
                          glm::length(rest_bone(rest, *map, leg(side).middle, leg(side).end)));
@@ -83,14 +85,15 @@ void fill_trunk(const Skeleton& target, const JointMap& map, std::array<Quat, kJ
 }
 
 // Some captures roll a foot by half a turn about its length (two Euler angles near 180 degrees, as
-// HDM05 has them): no foot's sole faces up its own shin. Such a foot is rolled back.
-void turn_soles_down(std::array<Quat, kJointCount>& world) {
+// HDM05 has them): no foot's sole faces up its own shin. Such a foot is rolled back about `bones`,
+// which so go on pointing where they point.
+void turn_soles_down(const std::array<Vec3, 2>& bones, std::array<Quat, kJointCount>& world) {
   constexpr float kUpsideDown = -0.2f;  // cosine between the instep and the shin
   for (const Side side : {Side::left, Side::right}) {
     const Quat& shin = world[index(leg(side).middle)];
     Quat& foot = world[index(leg(side).end)];
     if (glm::dot(shin * kUp, foot * kUp) > kUpsideDown) continue;
-    const Quat roll = glm::angleAxis(kPi, kForward);
+    const Quat roll = glm::angleAxis(kPi, bones[at(side)]);
     foot = foot * roll;
     world[index(toes(side))] = world[index(toes(side))] * roll;
   }
@@ -117,7 +120,7 @@ Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source
   fill_trunk(target, fit.map, world);
   for (std::size_t j = index(Joint::left_shoulder); j < kJointCount; ++j)
     if (fit.map.source[j] < 0) world[j] = world[static_cast<std::size_t>(kParent[j])];
-  turn_soles_down(world);
+  turn_soles_down(fit.foot, world);
 
   Pose pose;
   pose.rotation[0] = glm::normalize(world[0]);
@@ -192,8 +195,8 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
                        "give a longer capture");
   clip.root.assign(clip.frames.size(), Placement{});
   turn_to_hinges(target, clip);
-  carry_hands(target, hands, clip);
   stand_on_floor(target, feet, clip);
+  carry_hands(target, hands, clip);
   calm_hips(clip);
   for (auto& path : feet.ankle) path = smoothed(path, kTrembleSigma);
   carry_feet(target, feet, clip);
@@ -201,7 +204,10 @@ Result<Clip> retarget(const RawClip& raw, const SkeletonProfile& profile, const 
   fit_wrists(clip);
   RetargetSettings planting = settings;
   // Without toes the height of a ball of the foot is a guess, and says nothing about the floor.
-  if (!feet.has_toes) planting.floor_play = 0;
+  if (!feet.has_toes) {
+    planting.floor_play = 0;
+    planting.guessed_balls = true;
+  }
   plant_feet(target, clip, planting);
   unroll_rotations(clip);
   return clip;

@@ -15,6 +15,7 @@ struct RetargetSettings {
   float contact_speed = 0.25f;     // m/s at which a foot counts as set down
   float release_speed = 0.45f;     // m/s at which it counts as lifted
   bool keep_first_plants = false;  // feet planted at the first frame stay there, not at their mean
+  bool guessed_balls = false;      // the capture has no toes: the floor says where the balls stand
   float floor_play = 0.02f;        // m by which the floor under one contact may lie off that of all
   float blend_seconds = 0.20f;     // over which a lifted foot leaves its corrected place
 };
@@ -62,8 +63,15 @@ void carry_feet(const Skeleton& skeleton, const CapturedFeet& feet, Clip& clip);
 // path; hips sink a little where a leg would not reach. Contacts must be labelled.
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings = {});
 
+// Where a body that sits or lies comes to rest over the floor.
+inline constexpr float kPalm = 0.035f;        // m of wrist and knuckles when the hand carries
+inline constexpr float kSeatHeight = 0.105f;  // m of the hip joints when the seat carries
+inline constexpr float kLyingEase = 0.04f;    // m over which a height eases into its least
+
 // Moves the wrists onto the way of the captured ones, scaled about the hips and shifted up or down
-// as little as our body's proportions ask for: nothing in that turns when the body turns.
+// as little as our body's proportions ask for: nothing in that turns when the body turns. Where the
+// floor keeps lying hands higher than that, those of a standing body go up too, as far as their way
+// takes to stay the captured one. The hips must stand at their height over the floor.
 // `captured`: per side and tick, wrist from the middle of the hip joints in our axes, metres of the
 // target's body.
 void carry_hands(const Skeleton& skeleton, const std::array<std::vector<Vec3>, 2>& captured,

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/retarget.h"
+#include "capture/ease.h"
+#include "capture/foot_track.h"
 #include "motion/ik.h"
 #include "motion/smooth.h"
 
@@ -17,15 +18,8 @@ constexpr float kDorsiflexion = radians(34);  // an ankle under the body's weigh
 constexpr float kNearFloor =
     0.06f;  // m: a ball of the foot lower than this bends its toes to the floor
 
-constexpr float kTouchTicks = 12;  // over which a ball of the foot leaves the height of its plant
-constexpr float kHeel = -0.04f;    // m of the heel behind the ankle
-constexpr float kCreep = 0.06f;    // m/s at which a planted ball of the foot moves to its next rest
-
-struct FootTrack {
-  std::vector<Quat> foot, toe;  // world rotations, laid flat near the floor
-  std::vector<Vec3> ball;       // where the ball of the foot goes
-  std::vector<Vec3> ankle;      // where the ankle would go
-};
+constexpr float kFloorEase = 0.03f;  // m over which a foot in the air keeps out of the floor
+constexpr float kHeel = -0.04f;      // m of the heel behind the ankle
 
 // The rotation that lays a foot which points up more than flat down to flat.
 Quat laid_flat(Vec3 flat, Quat foot) {
@@ -49,83 +43,6 @@ float share_laid(const Skeleton& skeleton, Vec3 flat, Quat foot, float ankle_hei
     (ankle_height + (glm::slerp(foot, laid, share) * heel).y >= 0 ? high : low) = share;
   }
   return high;
-}
-
-FootTrack foot_track(const Skeleton& skeleton, const Clip& clip, Side side) {
-  FootTrack track;
-  for (const Pose& pose : clip.frames) {
-    const WorldPose world = world_pose(skeleton, pose);
-    track.foot.push_back(world.rotation[index(leg(side).end)]);
-    track.toe.push_back(world.rotation[index(toes(side))]);
-    track.ball.push_back(world.position[index(toes(side))]);
-    track.ankle.push_back(world.position[index(leg(side).end)]);
-  }
-  return track;
-}
-
-struct Plant {
-  std::size_t begin, end;
-  std::vector<Rest> rests;  // at least one
-  float lift;               // m by which the capture's floor lies lower than ours here
-};
-
-// Lengthens the ways between rests, at the cost of the rests, until the ball creeps no faster than
-// kCreep.
-void slow_down(std::vector<Rest>& rests) {
-  for (std::size_t r = 1; r < rests.size(); ++r) {
-    Rest& from = rests[r - 1];
-    Rest& to = rests[r];
-    const float needs = glm::distance(from.place, to.place) / (kCreep * kTickSeconds);
-    const float gap = static_cast<float>(to.begin - from.end);
-    const auto more = static_cast<std::size_t>(std::max(0.0f, needs - gap) / 2);
-    from.end -= std::min(more, (from.end - from.begin) / 2);
-    to.begin += std::min(more, (to.end - to.begin) / 2);
-  }
-}
-
-// Where a planted ball of the foot stands: at its rests, moving slowly from one to the next.
-Vec3 place_at(const Plant& plant, std::size_t i) {
-  const std::vector<Rest>& rests = plant.rests;
-  std::size_t next = 0;
-  while (next < rests.size() && rests[next].begin <= i) ++next;
-  if (next == 0) return rests.front().place;
-  const Rest& last = rests[next - 1];
-  if (next == rests.size() || i < last.end) return last.place;
-  const float share = (static_cast<float>(i - last.end) + 1) /
-                      (static_cast<float>(rests[next].begin - last.end) + 1);
-  return glm::mix(last.place, rests[next].place, glm::smoothstep(0.0f, 1.0f, share));
-}
-
-std::vector<Plant> plants_of(const Skeleton& skeleton, const Clip& clip, Side side,
-                             const RetargetSettings& settings, const FootTrack& track) {
-  const std::size_t count = track.ball.size();
-  std::vector<Plant> plants;
-  for (std::size_t i = 0; i < count;) {
-    std::size_t end = i;
-    Vec3 sum{};
-    std::vector<float> heights;
-    while (end < count && clip.contacts[end].of(side)) {
-      heights.push_back(track.ball[end].y);
-      sum += track.ball[end++];
-    }
-    if (end == i) {
-      ++i;
-      continue;
-    }
-    Plant plant{i, end, {}, 0};
-    if (!settings.keep_first_plants) plant.rests = rests_of(track.ball, i, end);
-    if (plant.rests.empty()) plant.rests.push_back({i, end, sum / static_cast<float>(end - i)});
-    if (i == 0 && settings.keep_first_plants) plant.rests.front().place = track.ball.front();
-    for (Rest& rest : plant.rests) rest.place.y = skeleton.toe_height();
-    slow_down(plant.rests);
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
-    plant.lift =
-        std::clamp(skeleton.toe_height() - *middle, -settings.floor_play, settings.floor_play);
-    plants.push_back(std::move(plant));
-    i = end;
-  }
-  return plants;
 }
 
 // By how much ball and ankle leave the way they would go.
@@ -159,26 +76,30 @@ void turn_feet(const Skeleton& skeleton, Side side, FootTrack& track) {
     const Quat turn = rotation_between(track.foot[i] * flat, track.ball[i] - track.ankle[i]);
     track.foot[i] = glm::normalize(turn * track.foot[i]);
     track.toe[i] = glm::normalize(turn * track.toe[i]);
+    track.ball[i] = glm::mix(track.ankle[i] + track.foot[i] * flat, track.ball[i], track.held[i]);
     ankle[i] = track.ball[i].y - (track.foot[i] * flat).y;
-    const float above = track.ball[i].y - skeleton.toe_height();
-    share[i] = share_laid(skeleton, flat, track.foot[i], ankle[i]) *
-               (1 - glm::smoothstep(kNearFloor, 2 * kNearFloor, above));
+    share[i] = share_laid(skeleton, flat, track.foot[i], ankle[i]) * track.held[i];
   }
   share = smoothed(widened(share, 4), 0.016f);
+  std::vector<float> raise(count);
   for (std::size_t i = 0; i < count; ++i) {
-    track.foot[i] =
-        glm::normalize(glm::slerp(track.foot[i], laid_flat(flat, track.foot[i]), share[i]));
+    const Quat laid = glm::slerp(track.foot[i], laid_flat(flat, track.foot[i]), share[i]);
+    turn_foot(skeleton, side, glm::normalize(laid), i, track);
     track.ball[i].y = std::max(skeleton.toe_height(), ankle[i] + (track.foot[i] * flat).y);
+    const Vec3 heel(0, -skeleton.ankle_height(), kHeel);
+    const float low = (track.ball[i] + track.foot[i] * (heel - flat)).y;
+    raise[i] = eased_up(low, 0, kFloorEase) - low;
   }
+  raise = smoothed(raise, 0.02f);
+  for (std::size_t i = 0; i < count; ++i) track.ball[i].y += raise[i] * (1 - track.held[i]);
 }
 
 // Moves the path of one foot: the ball, planted, stands still on the floor; between plants the
 // correction goes over smoothly from one to the next. The foot turns about its ball to where the
 // ankle goes its own way.
-void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSettings& settings,
-         FootTrack& track) {
+void pin(const Skeleton& skeleton, Side side, const RetargetSettings& settings,
+         const std::vector<Plant>& plants, FootTrack& track) {
   const std::size_t count = track.ball.size();
-  const std::vector<Plant> plants = plants_of(skeleton, clip, side, settings, track);
   std::vector<Correction> moved(count);
   const auto blend = static_cast<float>(ticks(static_cast<double>(settings.blend_seconds)));
   for (std::size_t p = 0; p <= plants.size(); ++p) {
@@ -227,10 +148,6 @@ void pin(const Skeleton& skeleton, const Clip& clip, Side side, const RetargetSe
         rotation_between(points, yaw_rotation(yaw_of(points)) * kForward) * track.foot[i];
     track.toe[i] = glm::slerp(track.toe[i], in_hemisphere_of(laid, track.toe[i]), share);
   }
-}
-
-Vec3 ankle_at(const Skeleton& skeleton, Side side, const FootTrack& track, std::size_t i) {
-  return track.ball[i] - track.foot[i] * skeleton.offset[index(toes(side))];
 }
 
 // Moves the hips up or down, smoothly, where a planted leg is too short for its place, or folded
@@ -284,7 +201,8 @@ void lift_heels(const Skeleton& skeleton, const Clip& clip, std::array<FootTrack
         const Quat ankle = pose.rotation[index(leg(side).end)];
         const float bend = -wrapped_angle(2 * std::atan2(ankle.x, ankle.w));
         if (bend <= kDorsiflexion) break;
-        track.foot[i] = track.foot[i] * glm::angleAxis(bend - kDorsiflexion, kLeft);
+        turn_foot(skeleton, side, track.foot[i] * glm::angleAxis(bend - kDorsiflexion, kLeft), i,
+                  track);
       }
     }
   }
@@ -322,24 +240,74 @@ void fit_ankles(const Skeleton& skeleton, const Clip& clip, std::array<FootTrack
         place_leg(skeleton, side, track, i, pose);
         const Quat shin = world_pose(skeleton, pose).rotation[index(leg(side).middle)];
         const Quat ankle = glm::inverse(shin) * asked;
-        track.foot[i] = glm::normalize(shin * ankle_within_range(ankle));
+        turn_foot(skeleton, side, glm::normalize(shin * ankle_within_range(ankle)), i, track);
       }
     }
   }
 }
 
+// What of an ankle's height its range takes, the hips rise by half: a body whose ankles bend less
+// crouches less.
+void rise_on_ankles(const Skeleton& skeleton, const std::array<FootTrack, 2>& pinned,
+                    const std::array<FootTrack, 2>& feet, Clip& clip) {
+  constexpr float kShare = 0.5f;
+  constexpr float kHighest = 0.03f;  // m
+  const std::size_t count = clip.frames.size();
+  std::vector<float> rise(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const Side side : {Side::left, Side::right}) {
+      if (!clip.contacts[i].of(side)) continue;
+      const auto s = static_cast<std::size_t>(side);
+      const float over = ankle_at(skeleton, side, feet[s], i).y - pinned[s].captured[i].y;
+      rise[i] = std::max(rise[i], kShare * over);
+    }
+  rise = smoothed(widened(rise, 8), 0.2f);
+  for (std::size_t i = 0; i < count; ++i) clip.frames[i].hips.y += std::min(rise[i], kHighest);
+}
+
+// What plants lift an ankle by over its captured height goes over smoothly from each to the next,
+// through the swings between them.
+void swing_as_planted(const Skeleton& skeleton, const Clip& clip, Side side, FootTrack& track) {
+  const std::size_t count = clip.frames.size();
+  std::vector<float> higher(count), planted(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    planted[i] = clip.contacts[i].of(side) ? 1.0f : 0.0f;
+    higher[i] = ankle_at(skeleton, side, track, i).y - track.captured[i].y;
+  }
+  const std::vector<float> carried = smoothed(higher, planted, 0.1f);
+  for (std::size_t i = 0; i < count; ++i)
+    track.ball[i].y += (1 - track.held[i]) * std::max(0.0f, carried[i] - higher[i]);
+}
+
 }  // namespace
 
 void plant_feet(const Skeleton& skeleton, Clip& clip, const RetargetSettings& settings) {
-  std::array<FootTrack, 2> feet;
+  std::array<FootTrack, 2> feet = foot_tracks(skeleton, clip, settings);
+  // A cut clip has been through this before, and stays where it was.
+  const bool first = !settings.keep_first_plants;
+  std::array<std::vector<Plant>, 2> plants;
+  for (const Side side : {Side::left, Side::right})
+    plants[static_cast<std::size_t>(side)] =
+        plants_of(skeleton, clip, side, settings, feet[static_cast<std::size_t>(side)]);
+  if (first) sway_with_plants(skeleton, settings, plants, feet, clip);
   for (const Side side : {Side::left, Side::right}) {
     FootTrack& track = feet[static_cast<std::size_t>(side)];
-    track = foot_track(skeleton, clip, side);
-    pin(skeleton, clip, side, settings, track);
+    track.captured = track.ankle;
+    pin(skeleton, side, settings, plants[static_cast<std::size_t>(side)], track);
   }
+  const std::array<FootTrack, 2> pinned = feet;
   lift_heels(skeleton, clip, feet);
   fit_hips(skeleton, feet, clip);
   fit_ankles(skeleton, clip, feet);
+  if (first) {
+    rise_on_ankles(skeleton, pinned, feet, clip);
+    feet = pinned;
+    lift_heels(skeleton, clip, feet);
+    fit_ankles(skeleton, clip, feet);
+    for (const Side side : {Side::left, Side::right})
+      swing_as_planted(skeleton, clip, side, feet[static_cast<std::size_t>(side)]);
+    fit_ankles(skeleton, clip, feet);
+  }
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     for (const Side side : {Side::left, Side::right}) {
       const FootTrack& track = feet[static_cast<std::size_t>(side)];

@@ -11,17 +11,19 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kSoftShare = 0.985f;      // of a leg's length: beyond it its reach is eased
-constexpr float kSlopeSigma = 0.0175f;    // slope that floors of captures have, about 1 degree
-constexpr float kPlantSigma = 0.008f;     // m by which plants on one floor differ in height
-constexpr float kLargestSlope = 0.0524f;  // 3 degrees
-constexpr float kSwingRoom = 0.01f;       // m
-constexpr float kLargestLift = 0.03f;     // m by which one side's height may differ from the mean
+constexpr float kSoftShare = 0.985f;       // of a leg's length: beyond it its reach is eased
+constexpr float kSlopeSigma = 0.0175f;     // slope that floors of captures have, about 1 degree
+constexpr float kPlantSigma = 0.008f;      // m by which plants on one floor differ in height
+constexpr float kLargestSlope = 0.0524f;   // 3 degrees
+constexpr float kSwingRoom = kPlantSigma;  // m
+constexpr float kLargestLift = 0.03f;      // m by which one side's height may differ from the mean
 
 constexpr float kRestExtent = 0.012f;      // m over which a resting ball of the foot may stray
 constexpr std::size_t kShortestRest = 30;  // ticks
-constexpr float kSlide = 0.04f;   // m between two rests: a longer way is a slide, no contact
-constexpr float kStray = 0.025f;  // m off its rest: a foot this far has left
+constexpr float kSlide = 0.04f;  // m between two rests: a longer way is a slide, no contact
+constexpr std::size_t kShortestSlide = 18;  // ticks: V4 sees no shorter one
+constexpr float kStanding = 0.15f;  // m/s: faster is no standing (V4 counts skate from here)
+constexpr float kStray = 0.025f;    // m off its rest: a foot this far has left
 
 constexpr std::size_t at(Side side) {
   return static_cast<std::size_t>(side);
@@ -33,14 +35,25 @@ float median(std::vector<float> values) {
   return *middle;
 }
 
-struct Plant {
+// The height under which a twentieth of the path lies, m.
+float lowest_twentieth(const std::vector<Vec3>& path) {
+  std::vector<float> heights;
+  heights.reserve(path.size());
+  for (const Vec3& p : path) heights.push_back(p.y);
+  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
+  std::nth_element(heights.begin(), low, heights.end());
+  return *low;
+}
+
+struct LevelPlant {
   std::size_t side;
   Vec3 place;  // median height
 };
 
-std::vector<Plant> plants_of(const CapturedFeet& feet, const std::vector<FootContacts>& contacts) {
+std::vector<LevelPlant> plants_of(const CapturedFeet& feet,
+                                  const std::vector<FootContacts>& contacts) {
   constexpr std::size_t kShortest = 10;  // ticks
-  std::vector<Plant> plants;
+  std::vector<LevelPlant> plants;
   for (const Side side : {Side::left, Side::right}) {
     const std::vector<Vec3>& path = feet.ball[at(side)];
     for (std::size_t i = 0; i < contacts.size();) {
@@ -67,12 +80,58 @@ Vec2 solved(float xx, float xz, float zz, Vec2 b) {
   return Vec2(zz * b.x - xz * b.y, xx * b.y - xz * b.x) / determinant;
 }
 
+// A foot that slides slowly for as long as a rest lasts carries all the same: it is the capture
+// that slides.
+void hold_slow_slides(const std::vector<bool>& near_floor, const std::vector<float>& speed,
+                      float slow, std::vector<bool>& planted) {
+  for (std::size_t i = 0; i < planted.size();) {
+    std::size_t end = i;
+    bool seen = false;
+    for (; end < planted.size() && near_floor[end] && speed[end] < slow; ++end)
+      seen = seen || planted[end];
+    if (!seen && end - i >= kShortestRest)
+      std::fill_n(planted.begin() + static_cast<std::ptrdiff_t>(i), end - i, true);
+    i = std::max(end, i + 1);
+  }
+}
+
+// A foot that is nowhere slower than a slide, and too briefly to be seen sliding, shuffles on.
+void lift_shuffles(const std::vector<float>& speed, std::vector<bool>& planted) {
+  for (std::size_t i = 0; i < planted.size();) {
+    std::size_t end = i;
+    bool stands = false;
+    for (; end < planted.size() && planted[end]; ++end) stands = stands || speed[end] < kStanding;
+    if (!stands && end - i < kShortestSlide)
+      std::fill_n(planted.begin() + static_cast<std::ptrdiff_t>(i), end - i, false);
+    i = std::max(end, i + 1);
+  }
+}
+
+// A foot that creeps through a contact stands where it is slow; it has left where it is fast and
+// far from there.
+void lift_far_ends(const std::vector<Vec3>& path, const std::vector<float>& speed,
+                   std::size_t begin, std::size_t end, std::vector<bool>& planted) {
+  Vec3 sum{};
+  float slow = 0;
+  for (std::size_t k = begin; k < end; ++k)
+    if (speed[k] < kStanding) sum += path[k], ++slow;
+  if (slow == 0) return;
+  const Vec3 place = sum / slow;
+  const auto left = [&](std::size_t k) {
+    return speed[k] >= kStanding && std::hypot(path[k].x - place.x, path[k].z - place.z) > kStray;
+  };
+  while (begin < end && left(begin)) planted[begin++] = false;
+  while (end > begin && left(end - 1)) planted[--end] = false;
+}
+
 // A foot that slides from one rest to another is not planted on the way.
-void lift_slides(const std::vector<Vec3>& path, std::vector<bool>& planted) {
+void lift_slides(const std::vector<Vec3>& path, const std::vector<float>& speed,
+                 std::vector<bool>& planted) {
   for (std::size_t i = 0; i < planted.size();) {
     std::size_t end = i;
     while (end < planted.size() && planted[end]) ++end;
     const std::vector<Rest> rests = rests_of(path, i, end);
+    if (rests.empty()) lift_far_ends(path, speed, i, end, planted);
     const auto off = [&](std::size_t k, const Rest& rest) {
       return std::hypot(path[k].x - rest.place.x, path[k].z - rest.place.z);
     };
@@ -120,28 +179,29 @@ std::vector<FootContacts> contacts_of(const CapturedFeet& feet, const RetargetSe
   std::vector<FootContacts> contacts(count);
   for (const Side side : {Side::left, Side::right}) {
     const std::vector<Vec3>& path = feet.ball[at(side)];
-    std::vector<float> heights;
-    heights.reserve(count);
-    for (const Vec3& p : path) heights.push_back(p.y);
-    const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-    std::nth_element(heights.begin(), low, heights.end());
-    std::vector<bool> planted(count);
+    const float low = lowest_twentieth(path);
+    std::vector<bool> planted(count), near_floor(count);
+    std::vector<float> speed(count);
     bool carries = false;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t before = i >= 2 ? i - 2 : 0;
       const std::size_t after = std::min(i + 2, count - 1);
       const float elapsed =
           static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
-      const float speed = glm::distance(path[before], path[after]) / elapsed;
-      carries = path[i].y < *low + settings.contact_height &&
-                speed < (carries ? settings.release_speed : settings.contact_speed);
+      speed[i] = glm::distance(path[before], path[after]) / elapsed;
+      near_floor[i] = path[i].y < low + settings.contact_height;
+      carries =
+          near_floor[i] && speed[i] < (carries ? settings.release_speed : settings.contact_speed);
       planted[i] = carries;
     }
+    const std::vector<float> calm = smoothed(speed, 0.04f);
+    hold_slow_slides(near_floor, calm, settings.release_speed, planted);
     close_short_runs(planted, false, 5);
     close_short_runs(planted, true, 8);
-    lift_slides(path, planted);
+    lift_slides(path, calm, planted);
     close_short_runs(planted, false, 9);
     close_short_runs(planted, true, 8);
+    lift_shuffles(speed, planted);
     for (std::size_t i = 0; i < count; ++i)
       (side == Side::left ? contacts[i].left : contacts[i].right) = planted[i];
   }
@@ -152,7 +212,7 @@ namespace {
 
 // One fit: the plane under the plants that are seen as such.
 Quat level_of(const CapturedFeet& feet, const std::vector<FootContacts>& contacts) {
-  const std::vector<Plant> plants = plants_of(feet, contacts);
+  const std::vector<LevelPlant> plants = plants_of(feet, contacts);
   // Ridge regression of height = height of the side + slope . place, the slope's prior normal about
   // zero; Huber's weights keep a foot on a mat or on its toes from tilting the floor.
   std::vector<float> weight(plants.size(), 1.0f);
@@ -209,8 +269,10 @@ void stand_on_floor(const Skeleton& skeleton, CapturedFeet& feet, Clip& clip) {
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     const WorldPose world = world_pose(skeleton, clip.frames[i]);
     for (const Side side : {Side::left, Side::right}) {
-      const Vec3 ball = feet.ankle[at(side)][i] +
-                        world.rotation[index(leg(side).end)] * skeleton.offset[index(toes(side))];
+      const Vec3 foot = skeleton.offset[index(toes(side))];
+      const Vec3 ball =
+          feet.ankle[at(side)][i] +
+          (feet.has_toes ? world.rotation[index(leg(side).end)] * foot : Vec3(0, foot.y, 0));
       const float lift = skeleton.toe_height() - ball.y;
       all.push_back(lift);
       if (!clip.contacts[i].of(side)) continue;
@@ -226,10 +288,10 @@ void stand_on_floor(const Skeleton& skeleton, CapturedFeet& feet, Clip& clip) {
   for (std::size_t s = 0; s < 2; ++s) {
     // Toward its lowest plants: the swings between the higher ones stay as free of the floor as
     // they were.
-    const float own = lifts[s].empty()
-                          ? mean
-                          : std::min(median(lifts[s]) + kSwingRoom,
-                                     *std::max_element(lifts[s].begin(), lifts[s].end()));
+    float own = lifts[s].empty() ? mean
+                                 : std::min(median(lifts[s]) + kSwingRoom,
+                                            *std::max_element(lifts[s].begin(), lifts[s].end()));
+    if (!feet.has_toes) own = skeleton.ankle_height() - lowest_twentieth(feet.ankle[s]);
     const float lift = std::clamp(own, mean - kLargestLift, mean + kLargestLift);
     for (Vec3& p : feet.ankle[s]) p.y += lift;
   }

@@ -2,26 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/ease.h"
 #include "capture/retarget.h"
 #include "motion/ik.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kSeatHeight = 0.105f;  // m of the hip joints over the floor when the seat carries
-constexpr float kPalm = 0.035f;   // m of wrist and knuckles over the floor when the hand carries
-constexpr float kElbow = 0.045f;  // m of the elbow over the floor
-constexpr float kFist = 0.085f;   // m from wrist to knuckles
+constexpr float kElbow = 0.045f;             // m of the elbow over the floor
+constexpr float kFist = 0.085f;              // m from wrist to knuckles
 constexpr float kLargestBend = radians(60);  // of the wrist on the floor
-constexpr float kEase = 0.04f;               // m over which a height eases into its least
-
-// At least `least`, without a corner: equals `height` from `least + kEase` on.
-float eased_up(float height, float least) {
-  const float room = height - least;
-  if (room >= kEase) return height;
-  if (room <= -kEase) return least;
-  return least + (room + kEase) * (room + kEase) / (4 * kEase);
-}
 
 void lift_arm(const Skeleton& skeleton, Side side, Pose& pose) {
   WorldPose world = world_pose(skeleton, pose);
@@ -30,12 +20,13 @@ void lift_arm(const Skeleton& skeleton, Side side, Pose& pose) {
   const Vec3 wrist = world.position[index(limb.end)];
   const Vec3 points = world.rotation[index(limb.end)] * along;
   const Vec3 forearm = world.rotation[index(limb.middle)] * along;
-  float wrist_height = eased_up(wrist.y, kPalm);
+  float wrist_height = eased_up(wrist.y, kPalm, kLyingEase);
   const float knuckles = wrist_height + points.y * kFist;
-  if (knuckles < kPalm + kEase) {
+  if (knuckles < kPalm + kLyingEase) {
     // 1. Bend the hand at the wrist until the knuckles lie no lower than the palm, or as far as it
     // goes.
-    const float up = std::clamp((eased_up(knuckles, kPalm) - wrist_height) / kFist, -1.0f, 1.0f);
+    const float up =
+        std::clamp((eased_up(knuckles, kPalm, kLyingEase) - wrist_height) / kFist, -1.0f, 1.0f);
     const Vec3 ground = normalized_or(Vec3(points.x, 0, points.z), kForward);
     const Vec3 wanted = ground * std::sqrt(std::max(0.0f, 1 - up * up)) + kUp * up;
     const Quat bend = rotation_between(forearm, wanted);
@@ -47,11 +38,11 @@ void lift_arm(const Skeleton& skeleton, Side side, Pose& pose) {
   }
   // 2. Lift the wrist, and the elbow by turning the arm about the line from shoulder to wrist.
   const Vec3 elbow = world.position[index(limb.middle)];
-  if (wrist_height <= wrist.y && elbow.y >= kElbow + kEase) return;
+  if (wrist_height <= wrist.y && elbow.y >= kElbow + kLyingEase) return;
   LimbTarget target;
   target.position = {wrist.x, wrist_height, wrist.z};
   target.pole = present_pole(world, limb, -kUp) +
-                kUp * std::max(0.0f, (eased_up(elbow.y, kElbow) - elbow.y) * 10);
+                kUp * std::max(0.0f, (eased_up(elbow.y, kElbow, kLyingEase) - elbow.y) * 10);
   solve_limb(skeleton, limb, target, pose);
 }
 
@@ -59,7 +50,7 @@ void lift_arm(const Skeleton& skeleton, Side side, Pose& pose) {
 
 void clear_floor(const Skeleton& skeleton, Clip& clip) {
   for (Pose& pose : clip.frames) {
-    pose.hips.y = eased_up(pose.hips.y, kSeatHeight);
+    pose.hips.y = eased_up(pose.hips.y, kSeatHeight, kLyingEase);
     for (const Side side : {Side::left, Side::right}) lift_arm(skeleton, side, pose);
   }
 }

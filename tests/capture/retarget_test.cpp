@@ -142,6 +142,8 @@ TEST(Retarget, AFootThatStandsInTheCaptureStandsStill) {
               0.002f);
     EXPECT_NEAR(first.position[index(toes(side))].y, skeleton.toe_height(), 0.002f);
   }
+  // Nor does the body drift away from the feet it stands on.
+  EXPECT_LT(glm::distance(first.position[0], last.position[0]), 0.02f);
 }
 
 TEST(Retarget, ASteppingFootIsLiftedAndTheOtherIsNot) {
@@ -221,42 +223,78 @@ TEST(Retarget, AFootRolledUpsideDownIsRolledBack) {
   }
 }
 
+// A half turn about the foot's own bone, as two Euler angles near 180 degrees give it: the foot in
+// the air points where it pointed.
+TEST(Retarget, AFootRolledAboutItsBoneGoesOnPointing) {
+  const Skeleton skeleton = canonical_skeleton();
+  std::vector<Pose> poses = standing_work(skeleton);
+  for (std::size_t i = 40; i < 80; ++i) {  // the left knee goes up and down again
+    const float lift = std::sin(kPi * static_cast<float>(i - 40) / 40.0f);
+    poses[i].rotation[index(Joint::left_upper_leg)] *= glm::angleAxis(-radians(60) * lift, kLeft);
+    poses[i].rotation[index(Joint::left_lower_leg)] *= glm::angleAxis(radians(40) * lift, kLeft);
+  }
+  RawClip raw = capture_of(skeleton, poses, {}, 1);
+  const auto right = retarget(raw, own_names(), skeleton);
+  const Vec3 bone = glm::normalize(skeleton.offset[index(Joint::left_toes)]);
+  for (std::size_t f = 0; f < raw.frames; ++f)
+    raw.rotation[raw.at(f, index(Joint::left_foot))] *= glm::angleAxis(kPi, bone);
+  const auto rolled = retarget(raw, own_names(), skeleton);
+  ASSERT_TRUE(right && rolled);
+  for (std::size_t i = 55; i < 65; ++i) {
+    const WorldPose a = world_pose(skeleton, right->frames[i]);
+    const WorldPose b = world_pose(skeleton, rolled->frames[i]);
+    ASSERT_GT(a.position[index(Joint::left_foot)].y, 0.2f);
+    EXPECT_LT(
+        glm::distance(a.position[index(Joint::left_toes)], b.position[index(Joint::left_toes)]),
+        0.003f)
+        << i;
+  }
+}
+
+// Forearms, shoulders and trunk of another build than ours.
+Skeleton built_otherwise(float forearms, float shoulders) {
+  Skeleton other = canonical_skeleton();
+  for (const Side side : {Side::left, Side::right}) {
+    other.offset[index(arm(side).end)] *= forearms;
+    other.offset[index(arm(side).root)].x *= shoulders;
+  }
+  other.offset[index(Joint::chest)] *= 0.7f;
+  return other;
+}
+
+// The least correlation, over both hands and all axes, of the wrists' ways from the hips.
+double least_hand_correlation(const Skeleton& ours, const std::vector<Pose>& our_poses,
+                              const Skeleton& theirs, const std::vector<Pose>& their_poses) {
+  double least = 1;
+  for (const Side side : {Side::left, Side::right})
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t hand = index(arm(side).end);
+      std::vector<double> a, b;
+      for (std::size_t i = 0; i < our_poses.size(); ++i) {
+        const WorldPose our = world_pose(ours, our_poses[i]);
+        const WorldPose their = world_pose(theirs, their_poses[i]);
+        a.push_back(static_cast<double>(our.position[hand][axis] - our.position[0][axis]));
+        b.push_back(static_cast<double>(their.position[hand][axis] - their.position[0][axis]));
+      }
+      least = std::min(least, testing::correlation(a, b));
+    }
+  return least;
+}
+
 // Longer arms on a shorter trunk: hands still draw the captured way.
 TEST(Retarget, HandsGoTheCapturedWayWhateverTheProportions) {
   const Skeleton skeleton = canonical_skeleton();
-  Skeleton other = skeleton;
-  for (const Side side : {Side::left, Side::right}) {
-    other.offset[index(arm(side).end)] *= 0.75f;
-    other.offset[index(arm(side).root)].x *= 1.3f;
-  }
-  other.offset[index(Joint::chest)] *= 0.7f;
+  const Skeleton other = built_otherwise(0.75f, 1.3f);
   const std::vector<Pose> poses = standing_work(skeleton);
   const auto clip = retarget(capture_of(other, poses, {}, 1), own_names(), skeleton);
   ASSERT_TRUE(clip);
-  for (const Side side : {Side::left, Side::right})
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> ours, theirs;
-      for (std::size_t i = 0; i < poses.size(); ++i) {
-        const WorldPose a = world_pose(skeleton, clip->frames[i]);
-        const WorldPose b = world_pose(other, poses[i]);
-        ours.push_back(
-            static_cast<double>(a.position[index(arm(side).end)][axis] - a.position[0][axis]));
-        theirs.push_back(
-            static_cast<double>(b.position[index(arm(side).end)][axis] - b.position[0][axis]));
-      }
-      EXPECT_GT(testing::correlation(ours, theirs), 0.995) << axis;
-    }
+  EXPECT_GT(least_hand_correlation(skeleton, clip->frames, other, poses), 0.995);
 }
 
 // The same body, turned by a whole turn: a shift of the hands that turned with it would show.
 TEST(Retarget, HandsGoTheCapturedWayInATurn) {
   const Skeleton skeleton = canonical_skeleton();
-  Skeleton other = skeleton;
-  for (const Side side : {Side::left, Side::right}) {
-    other.offset[index(arm(side).end)] *= 0.8f;
-    other.offset[index(arm(side).root)].x *= 1.2f;
-  }
-  other.offset[index(Joint::chest)] *= 0.7f;
+  const Skeleton other = built_otherwise(0.8f, 1.2f);
   std::vector<Pose> poses = standing_work(skeleton);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const float share = static_cast<float>(i) / static_cast<float>(poses.size());
@@ -264,18 +302,42 @@ TEST(Retarget, HandsGoTheCapturedWayInATurn) {
   }
   const auto clip = retarget(capture_of(other, poses, {}, 1), own_names(), skeleton);
   ASSERT_TRUE(clip);
-  for (const Side side : {Side::left, Side::right})
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> ours, theirs;
-      for (std::size_t i = 0; i < poses.size(); ++i) {
-        const std::size_t hand = index(arm(side).end);
-        const WorldPose a = world_pose(skeleton, clip->frames[i]);
-        const WorldPose b = world_pose(other, poses[i]);
-        ours.push_back(static_cast<double>(a.position[hand][axis] - a.position[0][axis]));
-        theirs.push_back(static_cast<double>(b.position[hand][axis] - b.position[0][axis]));
-      }
-      EXPECT_GT(testing::correlation(ours, theirs), 0.98) << axis;
+  EXPECT_GT(least_hand_correlation(skeleton, clip->frames, other, poses), 0.98);
+}
+
+// Hands that rise and sink over the hips of a body that lies down, captured with a floor that lies
+// lower there than ours: it lifts the lying ones, and the standing ones go up with them.
+TEST(Retarget, HandsThatTheFloorLiftsKeepTheirWay) {
+  const Skeleton skeleton = canonical_skeleton();
+  Clip clip;
+  std::array<std::vector<Vec3>, 2> captured;
+  std::vector<double> theirs;
+  for (int i = 0; i < 240; ++i) {
+    const float lies = glm::smoothstep(80.0f, 160.0f, static_cast<float>(i));
+    Pose pose = rest_pose(skeleton);
+    for (const Side side : {Side::left, Side::right})
+      pose.rotation[index(arm(side).root)] =
+          glm::angleAxis((side == Side::left ? -1.0f : 1.0f) * radians(70), kForward);
+    pose.rotation[0] = glm::angleAxis(-lies * radians(85), kLeft);
+    pose.hips.y = glm::mix(pose.hips.y, 0.1f, lies);
+    const float height = glm::mix(0.02f, -0.12f, lies);
+    for (std::size_t s = 0; s < 2; ++s)
+      captured[s].emplace_back(s == 0 ? 0.35f : -0.35f, height, -0.1f * lies);
+    theirs.push_back(static_cast<double>(height));
+    clip.frames.push_back(pose);
+  }
+  carry_hands(skeleton, captured, clip);
+  clear_floor(skeleton, clip);
+  for (const Side side : {Side::left, Side::right}) {
+    std::vector<double> ours;
+    for (const Pose& pose : clip.frames) {
+      const WorldPose world = world_pose(skeleton, pose);
+      EXPECT_GT(world.position[index(arm(side).end)].y, kPalm - 0.005f);
+      ours.push_back(static_cast<double>(world.position[index(arm(side).end)].y -
+                                         world.position[index(leg(side).root)].y));
     }
+    EXPECT_GT(testing::correlation(ours, theirs), 0.98);
+  }
 }
 
 // Feet that stand for half a second each, one after the other, on the plane y = slope . place.
