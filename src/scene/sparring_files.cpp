@@ -135,16 +135,24 @@ std::string table_text(std::span<const Action> actions, const OffenseDefenseTabl
   }
   std::string text;
   for (const auto& [blow, means] : blows) {
-    std::vector<std::pair<ActionId, double>> sorted;
-    sorted.reserve(means.size());
-    for (const auto& [defense, mean] : means) sorted.emplace_back(defense, mean.value());
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-    text += fmt::format("{}:", blow);
-    for (std::size_t i = 0; i < std::min<std::size_t>(5, sorted.size()); ++i)
-      text +=
-          fmt::format(" {} {:.0f} %{}", actions[sorted[i].first.at()].name, 100 * sorted[i].second,
-                      i + 1 < std::min<std::size_t>(5, sorted.size()) ? "," : "");
+    // The surest of each kind of defense.
+    std::map<DefenseKind, std::pair<ActionId, double>> of_kind;
+    for (const auto& [defense, mean] : means) {
+      const DefenseKind kind = actions[defense.at()].defense.value_or(Defense{}).kind;
+      const auto known = of_kind.try_emplace(kind, defense, mean.value()).first;
+      if (mean.value() > known->second.second) known->second = {defense, mean.value()};
+    }
+    std::vector<std::pair<DefenseKind, std::pair<ActionId, double>>> sorted(of_kind.begin(),
+                                                                            of_kind.end());
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) {
+      return x.second.second > y.second.second;
+    });
+    text += blow;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      const auto& [kind, best] = sorted[i];
+      text += fmt::format("{} {} {:.0f} % ({})", i == 0 ? ":" : ",", name_of(kind),
+                          100 * best.second, actions[best.first.at()].name);
+    }
     text += "\n";
   }
   return text;

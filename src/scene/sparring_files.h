@@ -25,7 +25,8 @@ std::string table_page(const std::string& name, std::span<const Action> actions,
 // The table of that page alone, with what it says.
 std::string table_html(std::span<const Action> actions, const OffenseDefenseTable& table);
 
-// A line for each kind of blow: the defenses that are surest against it at their best timing.
+// A line for each kind of blow: of each kind of defense the one that is surest against it at its
+// best timing, with the mean share over these attacks.
 std::string table_text(std::span<const Action> actions, const OffenseDefenseTable& table);
 
 }  // namespace ringcraft
