@@ -145,9 +145,9 @@ json physics_json(const Timeline& timeline, const RunFacts& facts) {
                   {"mean_impulse_Ns", rounded(mean, 4)},
                   {"foreseen", facts.foreseen},
                   {"foreseen_agreement", nullptr}};
-  if (facts.foreseen > 0) {
+  if (impacts > 0) {
     physics["foreseen_agreement"] =
-        rounded(static_cast<double>(agreed) / static_cast<double>(facts.foreseen), 4);
+        rounded(static_cast<double>(agreed) / static_cast<double>(impacts), 4);
   }
   return physics;
 }

@@ -24,7 +24,7 @@ struct RunFacts {
   std::vector<Contestant> contestants;  // one a fighter
   std::uint64_t memo_hits = 0, memo_misses = 0;
   std::uint64_t impulse_steps = 0;  // in all: committed, and first-time in the tree
-  std::uint64_t foreseen = 0;       // committed contacts that the attacker's plan had foreseen
+  std::uint64_t foreseen = 0;       // contacts that the tree had told of the strikes in flight
   bool interrupted = false;         // the report covers what was finished
 };
 
@@ -37,8 +37,8 @@ struct ClockFacts {
 
 // Every field of design section 8, the same for the same fight. A fighter's recovery_steps,
 // knockdowns and knockouts are those it suffered; hits_taken are clean ones. foreseen_agreement is
-// the share of the foreseen contacts that had the response the tree foresaw, null where none was
-// foreseen.
+// the share of the contacts that the tree foresaw from the actions in flight, with their kind of
+// response; null without a contact.
 nlohmann::json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
                            const MotionLibrary& library, const RunFacts& facts);
 

@@ -263,6 +263,12 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
   return 0;
 }
 
+void Duel::play_on(Node& node) {
+  Move nobody;
+  nobody.forced = true;
+  advance(node, nobody);
+}
+
 std::int32_t Duel::advance(Node& node, const Move& move) {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return 0;
   const Tick from = node.now;

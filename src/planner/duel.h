@@ -129,6 +129,9 @@ class Duel {
   void record_turned_into(std::vector<ActionId>* turned) { turned_ = turned; }  // back_turned
   Tick horizon() const { return horizon_; }
 
+  // Plays the actions in flight, with nobody deciding, until the first of them ends or is cut.
+  void play_on(Node& node);
+
   // The side whose action ends first; at equal ends the one that was second at the last tie.
   int next_side(const Node& node) const;
 

@@ -403,6 +403,24 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
   return plan;
 }
 
+std::vector<Event> Planner::foresee(const FightState& state, FighterId fighter) const {
+  const Inside& in = *inside_;
+  const FighterId opponent = in.opponent_of(state, fighter);
+  if (!opponent.valid()) return {};
+  const DuelSetup setup = in.setup(state, fighter, opponent, state.now);
+  Duel game(setup, state.now + kLongestHorizon);
+  std::vector<DuelEvent> met;
+  game.record_into(&met);
+  DuelNode node = Duel::root(setup, state);
+  node.side[0].flight.launch.end = state.fighters[fighter.at()].launch.end;  // nobody acts now
+  game.play_on(node);
+  std::vector<Event> events;
+  for (const DuelEvent& one : met) {
+    if (one.attacker == 0) events.push_back(event_of(one, setup, in.library, node));
+  }
+  return events;
+}
+
 DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last_contact,
                            Tick horizon, std::size_t most_nodes) const {
   const Inside& in = *inside_;

@@ -73,6 +73,10 @@ class Planner {
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact,
             const PlanLimits& limits);
 
+  // What the strikes of `fighter` in flight will do to its opponent, as the tree tells it: until
+  // the first action of the two ends or is cut.
+  std::vector<Event> foresee(const FightState& state, FighterId fighter) const;
+
   // The tree of the same decision, written out to `horizon` ticks from now (as
   // Plan::record.horizon says) and to at most `most_nodes` nodes. Empty where nobody is to be
   // fought.

@@ -26,6 +26,7 @@ double microseconds_since(Clock::time_point begin) {
 constexpr Tick kOpeningTicks = 24;        // in guard before the first decision
 constexpr float kIdleTurn = radians(15);  // toward the opponent, in one idle
 constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
+constexpr Tick kForeseenTicks = 6;       // a contact so far from when it was foreseen is another
 constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
 constexpr float kMostPush = 0.012f;      // m a tick and fighter
 
@@ -124,6 +125,7 @@ FighterId Bout::nearest_opponent(FighterId id) const {
 
 void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated) {
   fighter(id).launch = launch;
+  launched_ = true;
   stage_.begin(id, launch, std::move(simulated));
 }
 
@@ -142,7 +144,6 @@ DecisionTree Bout::tree(FighterId id, const Plan& plan, std::size_t most_nodes) 
 void Bout::commit(FighterId id, const Plan& plan) {
   note_expanded(state_, id);
   fighter(id).balance = 0;
-  standing_[id.at()].foreseen = plan.foreseen;
   planner_->note_launch(id, plan.launch.action);
   begin(id, plan.launch);
   Event event;
@@ -194,6 +195,7 @@ void Bout::commit_rest(FighterId id) {
 }
 
 void Bout::advance_one_tick() {
+  if (launched_) foresee();
   ++state_.now;
   stage_.show(state_.now);
   if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
@@ -328,7 +330,6 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   const Launch launch = answer.launch;
   begin(id, launch, std::move(answer.simulated));
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
-  standing_[id.at()].foreseen.clear();
 
   event.type = falls ? EventType::knockdown : EventType::response;
   event.who = id;
@@ -344,16 +345,23 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   }
 }
 
-// Did the attacker's plan foresee this contact, and the same kind of response?
+// What the tree says of the strikes in flight, now that somebody has begun something new.
+void Bout::foresee() {
+  launched_ = false;
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    standing_[i].foreseen = planner_->foresee(state_, FighterId(i));
+  }
+}
+
+// Did the tree foresee this contact, and the same kind of response?
 void Bout::note_foreseen(const Touch& touch, Event& event) {
   for (const Event& foreseen : standing_[touch.attacker.at()].foreseen) {
-    if (foreseen.who != event.who || foreseen.whom != event.whom ||
-        foreseen.action != event.action || foreseen.type != event.type) {
+    if (foreseen.type == EventType::miss || foreseen.whom != event.whom ||
+        foreseen.strike != event.strike || std::abs(foreseen.tick - event.tick) > kForeseenTicks) {
       continue;
     }
     ++record_.counts.foreseen;
     event.foreseen = foreseen.response == event.response;
-    record_.counts.foreseen_agreed += event.foreseen ? 1u : 0u;
     return;
   }
 }

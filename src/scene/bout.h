@@ -42,7 +42,7 @@ class Bout {
     Contact contact;
   };
   struct Standing {               // what the bout knows of a fighter beyond the state
-    std::vector<Event> foreseen;  // by its latest plan
+    std::vector<Event> foreseen;  // what its strikes in flight will do, by the tree
     bool out = false;
   };
 
@@ -58,6 +58,7 @@ class Bout {
   void commit_touch(const Touch& touch);
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
   void push_apart();
+  void foresee();
   void note_foreseen(const Touch& touch, Event& event);
 
   const MotionLibrary& library_;
@@ -69,6 +70,7 @@ class Bout {
   Stage stage_;
   FightRecord record_;
   Tick last_contact_ = 0;
+  bool launched_ = true;  // since the tree was asked what will happen
   Tick end_;
 };
 
