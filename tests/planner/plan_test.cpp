@@ -192,13 +192,14 @@ TEST_F(PlanTest, ForeseesWhatTheActionsInFlightDoWithoutADecision) {
   FightState state = facing(0.95f);
   state.now = 1;
   state.fighters[0].launch = launch("cross", 0, state.fighters[0].launch.placement);
-  state.fighters[1].launch = launch("front_kick", -70, state.fighters[1].launch.placement);
+  state.fighters[1].launch = launch("idle", 0, state.fighters[1].launch.placement);
   const std::vector<Event> seen = planner.foresee(state, FighterId(0));
   ASSERT_EQ(seen.size(), 1u);
   EXPECT_NE(seen[0].type, EventType::miss);
   EXPECT_EQ(seen[0].whom, FighterId(1));
   EXPECT_EQ(seen[0].action, "cross");
-  EXPECT_GT(seen[0].speed, 1);
+  EXPECT_GE(seen[0].tick, 20);  // while the cross can hit
+  EXPECT_LT(seen[0].tick, 31);
   state.fighters[0].launch.spent = 1;  // a blow that has landed lands no more
   EXPECT_TRUE(planner.foresee(state, FighterId(0)).empty());
   state.fighters[1].launch.placement.z += 1;  // out of reach
