@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ struct FamilyFigures {
   std::size_t members = 0, made = 0;
   float widest = 0;                                     // distance of two outcomes, m or rad
   std::vector<double> nearest, filled, first, reached;  // errors, one a wanted outcome
-  double skate_of_variants = 0, skate = 0;              // worst
+  double skate_of_variants = 0, skate = 0;              // worst, of those not refused
   std::map<std::string, int> refused;                   // by what
 
   void add(const FamilyFigures& other) {
@@ -58,7 +59,8 @@ struct FamilyFigures {
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+  const double at = share * static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::lround(at))];
 }
 
 // The first words of a refusal, without its figures.
@@ -97,15 +99,18 @@ FamilyFigures figures_of(const Skeleton& skeleton, const Family& family,
     std::string wrong =
         worse_than(skeleton, reached.action, family.variants, reached.weights, settings);
     if (wrong.empty()) wrong = judge(reached.action);
-    if (!wrong.empty()) ++figures.refused[reason_of(wrong)];
+    if (wrong.empty()) {
+      const double skate = foot_skate_ratio(skeleton, reached.action.clip.frames, kTicksPerSecond);
+      figures.skate = std::max(figures.skate, skate);
+    } else {
+      ++figures.refused[reason_of(wrong)];
+    }
     float filled = glm::distance(there.front(), wanted);
     for (const Vec3& outcome : there) filled = std::min(filled, glm::distance(outcome, wanted));
     figures.nearest.push_back(static_cast<double>(table.nearest_variant(wanted)));
     figures.filled.push_back(static_cast<double>(filled));
     figures.first.push_back(static_cast<double>(reached.first_error));
     figures.reached.push_back(static_cast<double>(reached.error));
-    figures.skate = std::max(
-        figures.skate, foot_skate_ratio(skeleton, reached.action.clip.frames, kTicksPerSecond));
   }
   return figures;
 }

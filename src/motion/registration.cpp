@@ -10,9 +10,6 @@
 namespace ringcraft {
 namespace {
 
-// Steps in a row along one clip alone: the other runs at a third of its pace at most (the slope
-// limit of Kovar and Gleicher).
-constexpr std::size_t kMostSteps = 2;
 constexpr float kSmooth = 0.03f;   // s: sigma of the curve's smoothing
 constexpr float kSlowest = 0.2f;   // ticks of the other clip for one of the reference, at least
 constexpr Tick kCoarse = 4;        // ticks between frames that are compared for the distance
@@ -20,6 +17,8 @@ constexpr Tick kNearestPhase = 3;  // ticks between two moments that hold the cu
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // How a cell was reached: by both clips, or by one alone for the first or second time in a row.
+// There is no third: the other runs at a third of its pace at least (the slope limit of Kovar and
+// Gleicher).
 enum Way : std::size_t { both, rows_once, rows_twice, columns_once, columns_twice, kWays };
 
 struct Cell {
