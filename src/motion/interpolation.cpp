@@ -16,6 +16,7 @@ const std::string kBlendOf = "blend of ";  // how a blend's source begins
 constexpr float kTurns = radians(20);      // less is no turn
 constexpr float kTurnsInPlace = 0.35f;     // m: a turn that leads farther is none
 constexpr float kSteps = 0.12f;            // m: less is no step
+constexpr std::size_t kMostMembers = 64;   // of a sort: what has more is dense, some stand for all
 constexpr float kStillJump = 0.02f;        // m/s: change of velocity in a tick that nobody sees
 
 struct Sort {
@@ -90,6 +91,16 @@ Variant variant_of(const Skeleton& skeleton, Outcomes kind, const Action& refere
   return {&other, registered(skeleton, reference.clip, other.clip,
                              anchors_of(kind, reference, other).value_or(Anchors{}))
                       .tick};
+}
+
+// Evenly spread ones, where there are more than are compared with each other.
+std::vector<std::size_t> thinned(const std::vector<std::size_t>& members) {
+  if (members.size() <= kMostMembers) return members;
+  std::vector<std::size_t> kept;
+  kept.reserve(kMostMembers);
+  for (std::size_t i = 0; i < kMostMembers; ++i)
+    kept.push_back(members[i * members.size() / kMostMembers]);
+  return kept;
 }
 
 // The member that most others are alike to, the nearest of equals, becomes a reference with these;
@@ -297,7 +308,7 @@ std::vector<Family> families(const Skeleton& skeleton, const std::vector<Action>
   std::vector<Family> found;
   for (const auto& [name, sort] : sorts) {
     if (sort.second.size() < 2) continue;
-    add_families(skeleton, sort.first, actions, sort.second, settings.alike, found);
+    add_families(skeleton, sort.first, actions, thinned(sort.second), settings.alike, found);
   }
   return found;
 }

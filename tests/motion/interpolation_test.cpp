@@ -1,5 +1,7 @@
 #include "motion/interpolation.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "base/random.h"
@@ -63,6 +65,17 @@ TEST_F(InterpolationTest, FamiliesAreOfOneBlowOneLimbAndOneWay) {
   EXPECT_EQ(found[0].kind, Outcomes::step);
   EXPECT_EQ(found[1].name, "straight_left");
   EXPECT_THAT(found[1].members, SizeIs(4));
+}
+
+TEST_F(InterpolationTest, OfManyRepetitionsSomeStandForAll) {
+  std::vector<Action> many(300, steps_[0]);
+  many.insert(many.end(), 100, steps_[1]);
+  const auto found = families(skeleton_, many);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_THAT(found[0].members, SizeIs(64));
+  EXPECT_GE(std::count_if(found[0].members.begin(), found[0].members.end(),
+                          [](std::size_t i) { return i >= 300; }),
+            10);
 }
 
 TEST_F(InterpolationTest, ReachesWhatIsWantedBetweenRepetitions) {
