@@ -17,12 +17,17 @@ Result<CanonicalCapture> read_canonical(const std::filesystem::path& path, const
                                         const CaptureSource& source) {
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
-  replace_junk_first_frame(*raw);
-  auto profile = best_profile(profiles, *raw);
+  return canonical_of(std::move(*raw), skeleton, profiles);
+}
+
+Result<CanonicalCapture> canonical_of(RawClip raw, const Skeleton& skeleton,
+                                      const std::vector<SkeletonProfile>& profiles) {
+  replace_junk_first_frame(raw);
+  auto profile = best_profile(profiles, raw);
   if (!profile) return tl::unexpected(profile.error());
-  auto clip = retarget(*raw, *profile, skeleton);
+  auto clip = retarget(raw, *profile, skeleton);
   if (!clip) return tl::unexpected(clip.error());
-  return CanonicalCapture{std::move(*raw), std::move(*profile), std::move(*clip)};
+  return CanonicalCapture{std::move(raw), std::move(*profile), std::move(*clip)};
 }
 
 }  // namespace ringcraft

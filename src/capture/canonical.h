@@ -26,4 +26,8 @@ Result<CanonicalCapture> read_canonical(const std::filesystem::path& path, const
                                         const std::vector<SkeletonProfile>& profiles,
                                         const CaptureSource& source = {});
 
+// Of a capture that has been read.
+Result<CanonicalCapture> canonical_of(RawClip raw, const Skeleton& skeleton,
+                                      const std::vector<SkeletonProfile>& profiles);
+
 }  // namespace ringcraft

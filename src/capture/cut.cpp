@@ -48,17 +48,6 @@ Tick full_reach(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick pe
   return best;
 }
 
-// The moment as a clip of its own, five ticks, for the alignment.
-Clip window_of(const Clip& capture, Tick tick) {
-  Clip window;
-  for (Tick t = tick - 2; t <= tick + 2; ++t) {
-    window.frames.push_back(capture.at(t));
-    window.root.emplace_back();
-    window.contacts.push_back(capture.contacts_at(t));
-  }
-  return window;
-}
-
 bool is_straight(StrikeKind kind) {
   return kind == StrikeKind::straight || kind == StrikeKind::front_kick ||
          kind == StrikeKind::side_kick;
@@ -184,12 +173,22 @@ void turn_to_opponent(const Skeleton& skeleton, const CaptureTracks& tracks,
 
 }  // namespace
 
+Clip window_about(const Clip& capture, Tick tick) {
+  Clip window;
+  for (Tick t = tick - 2; t <= tick + 2; ++t) {
+    window.frames.push_back(capture.at(t));
+    window.root.emplace_back();
+    window.contacts.push_back(capture.contacts_at(t));
+  }
+  return window;
+}
+
 CaptureTracks tracks_of(const Clip& capture, double guard_at, float guard_yaw) {
   CaptureTracks tracks;
   for (const Pose& pose : capture.frames) tracks.ground.emplace_back(pose.hips.x, 0, pose.hips.z);
   tracks.ground = smoothed(tracks.ground, 0.16f);
   const Tick at = std::clamp(ticks(guard_at), 0, capture.length());
-  tracks.guard = window_of(capture, at);
+  tracks.guard = window_about(capture, at);
   // The pelvis wanders: its mean heading over half a second.
   Vec3 forward{};
   for (Tick t = at - 30; t <= at + 30; ++t) {
@@ -203,7 +202,7 @@ CaptureTracks tracks_of(const Clip& capture, double guard_at, float guard_yaw) {
 float facing_at(const Skeleton& skeleton, const Clip& capture, const CaptureTracks& tracks,
                 Tick tick) {
   return tracks.guard_facing -
-         aligned(skeleton, tracks.guard, window_of(capture, tick)).placement.yaw;
+         aligned(skeleton, tracks.guard, window_about(capture, tick)).placement.yaw;
 }
 
 Tick fastest_tick(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick first, Tick last) {

@@ -65,4 +65,7 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
 // The tick in [first, last] at which the joint moves fastest relative to the hips.
 Tick fastest_tick(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick first, Tick last);
 
+// A moment as a clip of its own, five ticks, for alignment.
+Clip window_about(const Clip& capture, Tick tick);
+
 }  // namespace ringcraft

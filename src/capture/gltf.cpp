@@ -189,7 +189,9 @@ class Builder {
 
 Result<RawClip> parse(std::string_view bytes, const std::string& file, const std::string& clip,
                       const std::filesystem::path& folder, const CaptureLimits& limits) {
-  auto gltf = read_gltf_parts(bytes, file, clip, folder, limits);
+  auto model = GltfModel::open(bytes, file, folder, limits);
+  if (!model) return tl::unexpected(model.error());
+  auto gltf = model->read(clip);
   if (!gltf) return tl::unexpected(gltf.error());
   return Builder(std::move(*gltf), file, limits).build();
 }
@@ -217,11 +219,27 @@ Result<RawClip> read_gltf(const std::filesystem::path& path, const std::string& 
 }
 
 Result<std::vector<std::string>> gltf_clips(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  auto ok =
+      each_gltf_clip(path, [&](const std::string& name, const auto&) { names.push_back(name); });
+  if (!ok) return tl::unexpected(ok.error());
+  return names;
+}
+
+Result<void> each_gltf_clip(const std::filesystem::path& path, const GltfClipVisitor& visit) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto gltf = read_gltf_parts(*bytes, path.string(), "", folder_of(path), {});
-  if (!gltf) return tl::unexpected(gltf.error());
-  return std::move(gltf->clips);
+  auto model = GltfModel::open(*bytes, path.string(), folder_of(path), {});
+  if (!model) return tl::unexpected(model.error());
+  const auto first = model->read("");
+  if (!first) return tl::unexpected(first.error());
+  for (const std::string& name : first->clips)
+    visit(name, [&]() -> Result<RawClip> {
+      auto gltf = model->read(name);
+      if (!gltf) return tl::unexpected(gltf.error());
+      return Builder(std::move(*gltf), path.string(), {}).build();
+    });
+  return {};
 }
 
 }  // namespace ringcraft

@@ -4,6 +4,7 @@
 // bones go by their VRM names. Meshes are not read.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,13 @@ Result<RawClip> parse_gltf(std::string_view bytes, const std::string& file,
 
 // Buffers of their own are read from the file's folder and below.
 Result<RawClip> read_gltf(const std::filesystem::path& path, const std::string& clip = "");
+
+// Reads the clip it is given with.
+using GltfClipVisitor =
+    std::function<void(const std::string& name, const std::function<Result<RawClip>()>& read)>;
+
+// Every animation in the file's order; the file is opened once.
+Result<void> each_gltf_clip(const std::filesystem::path& path, const GltfClipVisitor& visit);
 
 // Names of all animations.
 Result<std::vector<std::string>> gltf_clips(const std::filesystem::path& path);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <memory>
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -70,20 +70,27 @@ class Reader {
  public:
   Reader(const std::string& file, const CaptureLimits& limits) : file_(file), limits_(limits) {}
 
-  // Without a name for a clip: the skeleton alone.
-  Result<GltfFile> read(const GltfParts& parts, const std::optional<std::string>& clip,
-                        std::filesystem::path folder) {
-    if (auto ok = load(parts, std::move(folder)); !ok) return tl::unexpected(ok.error());
-    if (auto ok = nodes(); !ok) return tl::unexpected(ok.error());
-    if (auto ok = sort_nodes(); !ok) return tl::unexpected(ok.error());
-    if (auto ok = skins(); !ok) return tl::unexpected(ok.error());
+  // The skeleton.
+  Result<void> open(const GltfParts& parts, std::filesystem::path folder) {
+    if (auto ok = load(parts, std::move(folder)); !ok) return ok;
+    if (auto ok = nodes(); !ok) return ok;
+    if (auto ok = sort_nodes(); !ok) return ok;
+    if (auto ok = skins(); !ok) return ok;
     for (const auto& [bone, node] : parts.bones)
       if (static_cast<std::size_t>(node) < out_.nodes.size())
         out_.nodes[static_cast<std::size_t>(node)].bone = bone;
-    if (!clip) return std::move(out_);
-    if (auto ok = animation(*clip); !ok) return tl::unexpected(ok.error());
-    return std::move(out_);
+    rows_of_skeleton_ = rows_read_;
+    return {};
   }
+  // Then one clip after another; each may read as much as the file may.
+  Result<GltfFile> read(const std::string& clip) {
+    rows_read_ = rows_of_skeleton_;
+    out_.clips.clear();
+    out_.animation = {};
+    if (auto ok = animation(clip); !ok) return tl::unexpected(ok.error());
+    return out_;
+  }
+  GltfFile skeleton() && { return std::move(out_); }
 
  private:
   tl::unexpected<Error> fault(std::string place, std::string what,
@@ -428,23 +435,41 @@ class Reader {
   tinygltf::Model model_;
   GltfFile out_;
   std::size_t rows_read_ = 0;
+  std::size_t rows_of_skeleton_ = 0;
 };
 
 }  // namespace
 
-Result<GltfFile> read_gltf_parts(std::string_view bytes, const std::string& file,
-                                 const std::string& clip, const std::filesystem::path& folder,
-                                 const CaptureLimits& limits) {
+struct GltfModel::Impl : Reader {
+  using Reader::Reader;
+};
+
+GltfModel::GltfModel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+GltfModel::GltfModel(GltfModel&&) noexcept = default;
+GltfModel& GltfModel::operator=(GltfModel&&) noexcept = default;
+GltfModel::~GltfModel() = default;
+
+Result<GltfModel> GltfModel::open(std::string_view bytes, const std::string& file,
+                                  const std::filesystem::path& folder,
+                                  const CaptureLimits& limits) {
   auto parts = gltf_parts(bytes, file);
   if (!parts) return tl::unexpected(parts.error());
-  return Reader(file, limits).read(*parts, clip, folder);
+  auto impl = std::make_unique<Impl>(file, limits);
+  if (auto ok = impl->open(*parts, folder); !ok) return tl::unexpected(ok.error());
+  return GltfModel(std::move(impl));
+}
+
+Result<GltfFile> GltfModel::read(const std::string& clip) {
+  return impl_->read(clip);
 }
 
 Result<GltfFile> read_gltf_skeleton(std::string_view bytes, const std::string& file,
                                     const CaptureLimits& limits) {
   auto parts = gltf_parts(bytes, file);
   if (!parts) return tl::unexpected(parts.error());
-  return Reader(file, limits).read(*parts, std::nullopt, {});
+  Reader reader(file, limits);
+  if (auto ok = reader.open(*parts, {}); !ok) return tl::unexpected(ok.error());
+  return std::move(reader).skeleton();
 }
 
 }  // namespace ringcraft

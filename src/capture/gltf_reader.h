@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,11 +57,24 @@ struct GltfFile {
   GltfAnimation animation;  // the one that was asked for
 };
 
-// The animation called `clip` (whole, or after its last '|'), the first when it is empty. Buffers
-// in files of their own are read from `folder` and below; without it they are refused.
-Result<GltfFile> read_gltf_parts(std::string_view bytes, const std::string& file,
-                                 const std::string& clip, const std::filesystem::path& folder,
-                                 const CaptureLimits& limits);
+// A file that has been opened and checked once, for all its clips.
+class GltfModel {
+ public:
+  // Buffers in files of their own are read from `folder` and below; without it they are refused.
+  static Result<GltfModel> open(std::string_view bytes, const std::string& file,
+                                const std::filesystem::path& folder, const CaptureLimits& limits);
+  GltfModel(GltfModel&&) noexcept;
+  GltfModel& operator=(GltfModel&&) noexcept;
+  ~GltfModel();
+
+  // The animation called `clip` (whole, or after its last '|'), the first when it is empty.
+  Result<GltfFile> read(const std::string& clip);
+
+ private:
+  struct Impl;
+  explicit GltfModel(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
 
 // Nodes and skins alone, whether or not anything moves them; buffers must lie in the file.
 Result<GltfFile> read_gltf_skeleton(std::string_view bytes, const std::string& file,

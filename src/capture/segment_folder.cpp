@@ -83,10 +83,9 @@ void add(Action action, const std::string& file, Collection& out) {
   out.actions.push_back(std::move(action));
 }
 
-Result<Clip> canonical_clip(const fs::path& path, const std::string& clip_name, Collection& out) {
-  CaptureSource source;
-  source.clip = clip_name;
-  auto read = read_canonical(path, out.skeleton, out.profiles, source);
+Result<Clip> canonical_clip(const fs::path& path, Result<RawClip> raw, Collection& out) {
+  if (!raw) return tl::unexpected(raw.error());
+  auto read = canonical_of(std::move(*raw), out.skeleton, out.profiles);
   if (!read) return tl::unexpected(read.error());
   for (const std::string& note : read->raw.notes) out.note(path.string() + ": " + note);
   return std::move(read->clip);
@@ -132,9 +131,10 @@ void cut_segment(const Clip& clip, const CaptureTracks& tracks, const FoundActio
   add(std::move(other), file, out);
 }
 
-void add_clip(const fs::path& path, const std::string& clip_name, Collection& out) {
+void add_clip(const fs::path& path, const std::string& clip_name, Result<RawClip> raw,
+              Collection& out) {
   const std::string file = path.string() + (clip_name.empty() ? "" : " " + clip_name);
-  auto clip = canonical_clip(path, clip_name, out);
+  auto clip = canonical_clip(path, std::move(raw), out);
   if (!clip) {
     out.note(fmt::format("passed over: {}", to_string(clip.error())));
     return;
@@ -165,15 +165,12 @@ void add_clip(const fs::path& path, const std::string& clip_name, Collection& ou
 
 void add_capture(const fs::path& path, Collection& out) {
   if (!is_gltf(path)) {
-    add_clip(path, "", out);
+    add_clip(path, "", read_capture(path), out);
     return;
   }
-  auto clips = gltf_clips(path);
-  if (!clips) {
-    out.note(fmt::format("passed over: {}", to_string(clips.error())));
-    return;
-  }
-  for (const std::string& clip : *clips) add_clip(path, clip, out);
+  const auto read = each_gltf_clip(
+      path, [&](const std::string& clip, const auto& raw) { add_clip(path, clip, raw(), out); });
+  if (!read) out.note(fmt::format("passed over: {}", to_string(read.error())));
 }
 
 }  // namespace

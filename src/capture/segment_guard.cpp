@@ -101,16 +101,6 @@ Tick nearest_to_medians(const Measures& m, const std::vector<Tick>& among) {
   return best;
 }
 
-Clip window_at(const Clip& capture, Tick tick) {
-  Clip window;
-  for (Tick t = tick - 2; t <= tick + 2; ++t) {
-    window.frames.push_back(capture.at(t));
-    window.root.emplace_back();
-    window.contacts.push_back(capture.contacts_at(t));
-  }
-  return window;
-}
-
 float middle_angle(std::vector<float> angles) {
   float x = 0;
   float z = 0;
@@ -176,10 +166,10 @@ Guard guard_of(const Skeleton& skeleton, const Clip& capture, const Measures& m,
   guard.hands_up = up.size() >= kFewest;
   const std::vector<Tick>& among = guard.hands_up ? up : any.size() >= kFewest ? any : all;
   guard.at = nearest_to_medians(m, among);
-  const Clip pose = window_at(capture, guard.at);
+  const Clip pose = window_about(capture, guard.at);
   const float heading = m.pelvis_yaw[at(guard.at)];
   for (Tick t = 0; t <= m.last; ++t) {
-    const Alignment alignment = aligned(skeleton, pose, window_at(capture, t));
+    const Alignment alignment = aligned(skeleton, pose, window_about(capture, t));
     guard.distance.push_back(alignment.distance);
     guard.facing.push_back(wrapped_angle(heading - alignment.placement.yaw));
   }
