@@ -109,7 +109,19 @@ export class Cameras {
     } else if (this.name === 'ring') {
       this.look(new Vector3(0, 0.45, 0), new Vector3(5.4, 0, 7.2), 3.6);
     }
+    this.clip();
     this.controls.update();
+  }
+
+  // Ropes and posts close before a view that moves by itself would hide the fight: it begins
+  // behind them. Bodies stay within the other half of the way.
+  clip() {
+    const { camera } = this.stage;
+    const moves = this.name === 'side' || this.name === 'front';
+    const near = moves ? 0.45 * camera.position.distanceTo(this.target) : 0.05;
+    if (camera.near === near) return;
+    camera.near = near;
+    camera.updateProjectionMatrix();
   }
 
   look(at, offset, height) {
