@@ -68,6 +68,7 @@ struct Event {
   int steps = 0;
   float direction = 0;  // world yaw in which the body goes, rad
   bool knockout = false;
+  bool fall = false;      // the hit of a falling body, not of a strike
   bool foreseen = false;  // the tree foresaw this hit with the same response
   std::string replay;     // what recomputes this hit, opaque (scene/hit_replay.h); not hashed
   DecisionRecord decision;

@@ -15,7 +15,11 @@ json vector_json(Vec3 v, int decimals) {
 }
 
 void add_contact(json& object, const Event& event) {
-  object["strike"] = name_of(event.strike);
+  if (event.fall) {
+    object["fall"] = true;
+  } else {
+    object["strike"] = name_of(event.strike);
+  }
   object["part"] = event.part;
   object["point"] = vector_json(event.point, 4);
   object["impulse"] = vector_json(event.impulse, 3);

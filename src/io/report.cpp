@@ -27,11 +27,11 @@ Tally tally_of(const Timeline& timeline, FighterId fighter) {
         tally.strikes += own;
         break;
       case EventType::hit:
-        tally.landed += own;
+        tally.landed += own && !event.fall;
         tally.hits_taken += event.whom == fighter;
         break;
       case EventType::block:
-        tally.blocked += own;
+        tally.blocked += own && !event.fall;
         break;
       case EventType::miss:
         tally.missed += own;

@@ -131,6 +131,8 @@ class Articulated {
   std::array<int, kPartCount> first_{};
 };
 
+constexpr float kFallingTone = .3f;  // of a body that braces itself (shown.cpp)
+
 struct StrikeTraits {
   float tone;         // of the striking limb (ragdoll.md: .1 of straights, .5 of hooks and kicks)
   float least, most;  // kg: a straight limb is nearly singular, its mass doubles within centimetres
@@ -169,26 +171,14 @@ Vec3 line_of(Vec3 velocity, Vec3 inward) {
   return glm::normalize(inward + kFriction * side);
 }
 
-}  // namespace
-
-float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
-                     float tone) {
-  const Articulated articulated(body, pose);
-  const auto row = articulated.jacobian(part, point, normalized_or(line, kForward));
-  const Eigen::LDLT<Articulated::Matrix> solver(articulated.mass(tone));
-  const double inverse_mass = row.dot(solver.solve(row.transpose()));
-  return static_cast<float>(1.0 / std::max(inverse_mass, 1e-6));
-}
-
-Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
-             const Pose& target_pose, const Contact& contact, StrikeKind kind) {
+Blow blow_with(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
+               const Pose& target_pose, const Contact& contact, const StrikeTraits& traits) {
   Blow blow;
   blow.part = contact.struck;
   blow.point = contact.point;
   blow.blocked = contact.blocked;
   const Vec3 line = line_of(contact.velocity, -contact.normal);
   blow.speed = std::max(0.0f, glm::dot(contact.velocity, line));
-  const StrikeTraits traits = traits_of(kind);
   // A fist strikes with the knuckles in line: its mass is that at the glove's axis, in the pose
   // given (the contact may lie a few centimetres before it).
   const Capsule glove =
@@ -203,6 +193,28 @@ Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyMod
   const float share = contact.blocked ? kBlockShare : 1.0f;
   blow.impulse = line * (share * (1 + kRestitution) * blow.speed * both);
   return blow;
+}
+
+}  // namespace
+
+float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
+                     float tone) {
+  const Articulated articulated(body, pose);
+  const auto row = articulated.jacobian(part, point, normalized_or(line, kForward));
+  const Eigen::LDLT<Articulated::Matrix> solver(articulated.mass(tone));
+  const double inverse_mass = row.dot(solver.solve(row.transpose()));
+  return static_cast<float>(1.0 / std::max(inverse_mass, 1e-6));
+}
+
+Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
+             const Pose& target_pose, const Contact& contact, StrikeKind kind) {
+  return blow_with(attacker, attacker_pose, target, target_pose, contact, traits_of(kind));
+}
+
+Blow blow_of_fall(const BodyModel& faller, const Pose& faller_pose, const BodyModel& target,
+                  const Pose& target_pose, const Contact& contact) {
+  return blow_with(faller, faller_pose, target, target_pose, contact,
+                   {kFallingTone, .3f, faller.spec.mass});
 }
 
 }  // namespace ringcraft

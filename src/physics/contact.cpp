@@ -98,6 +98,22 @@ std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& s
   return first;
 }
 
+std::optional<Contact> fall_contact(const SweptBody& faller, const SweptBody& other, float least) {
+  constexpr std::array<Part, 8> kFalling{
+      Part::pelvis,     Part::abdomen,     Part::chest,          Part::head,
+      Part::left_thigh, Part::right_thigh, Part::left_upper_arm, Part::right_upper_arm};
+  std::optional<Contact> first;
+  for (const Part part : kFalling) {
+    const std::size_t i = index(part);
+    const auto c = strike_contact(faller, part, other);
+    if (!c || (first && c->share >= first->share)) continue;
+    const Capsule &was = faller.before[i], &is = faller.after[i];
+    const Vec3 own = (is.a + is.b - was.a - was.b) * (.5f / faller.seconds);
+    if (glm::dot(own, -c->normal) >= least) first = c;
+  }
+  return first;
+}
+
 std::uint32_t striking_parts(const Strike& strike) {
   const Part part = part_of(strike.joint).value_or(Part::right_hand);
   std::uint32_t parts = bit(part);

@@ -34,6 +34,11 @@ std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
                                       const SweptBody& target);
 
+// First contact of a falling body with another, by its trunk, its head, a thigh or an upper arm,
+// which itself moves toward the other at `least` m/s or faster: who walks into somebody that falls
+// away is not fallen upon. What hangs on the ends of the limbs gives way.
+std::optional<Contact> fall_contact(const SweptBody& faller, const SweptBody& other, float least);
+
 // Parts a strike can land with, bit index(part): the glove; the foot; of a roundhouse the shin too.
 // To be excepted from penetration while the strike is active.
 std::uint32_t striking_parts(const Strike& strike);

@@ -28,6 +28,10 @@ struct Blow {
 Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
              const Pose& target_pose, const Contact& contact, StrikeKind kind);
 
+// The same where a falling body meets another, with the mass that its slack limbs bring along.
+Blow blow_of_fall(const BodyModel& faller, const Pose& faller_pose, const BodyModel& target,
+                  const Pose& target_pose, const Contact& contact);
+
 // What the impulse step starts from.
 struct ImpactInput {
   Pose pose;                        // world, at the contact

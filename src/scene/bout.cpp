@@ -28,6 +28,7 @@ constexpr float kIdleTurn = radians(15);  // toward the opponent, in one idle
 constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
 constexpr Tick kForeseenTicks = 6;       // a contact so far from when it was foreseen is another
 constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
+constexpr float kFallingSpeed = 1.0f;    // m/s: slower, a falling body leans on another
 constexpr float kMostPush = 0.012f;      // m a tick and fighter
 
 std::vector<BodyModel> bodies_of(const SceneFile& scene) {
@@ -201,6 +202,7 @@ void Bout::advance_one_tick() {
   if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) note_strikes(FighterId(i));
   for (const Touch& touch : touches()) commit_touch(touch);
+  commit_falls();
   stage_.keep_out_and_record();
   push_apart();
 }
@@ -267,16 +269,49 @@ void Bout::commit_touch(const Touch& touch) {
   if (fighter(attacker).launch.action == touch.action) {
     fighter(attacker).launch.spent |= static_cast<std::uint8_t>(1u << touch.strike);
   }
+  Event event;
+  event.action = attack.name;
+  event.strike = strike.kind;
+  deliver(attacker, target,
+          blow_of(stage_.body(attacker), stage_.shown(attacker), stage_.body(target),
+                  stage_.shown(target), touch.contact, strike.kind),
+          event);
+}
+
+// A body that falls upon another hits it, once a fall.
+void Bout::commit_falls() {
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const FighterId faller(i);
+    if (!fighter(faller).down() || !stage_.simulated(faller)) continue;
+    for (std::size_t j = 0; j < state_.fighters.size(); ++j) {
+      const FighterId other(j);
+      std::uint32_t& met = standing_[i].fell_upon;
+      if (i == j || fighter(other).down() || (met >> j & 1u)) continue;
+      const auto contact = fall_contact(stage_.swept(faller), stage_.swept(other), kFallingSpeed);
+      if (!contact) continue;
+      const Blow blow = blow_of_fall(stage_.body(faller), stage_.shown(faller), stage_.body(other),
+                                     stage_.shown(other), *contact);
+      if (glm::length(blow.impulse) < kTouchImpulse) continue;
+      met |= 1u << j;
+      Event event;
+      event.action = action_of(faller).name;
+      event.fall = true;
+      deliver(faller, other, blow, event);
+    }
+  }
+}
+
+// The blow as an event, what it costs, and the response.
+void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event event) {
   last_contact_ = state_.now;
 
-  // 1. The impulse of the blow, and what the struck body does with it in 100 ms.
+  // 1. What the struck body does with the impulse in 100 ms.
   ImpactInput input;
   input.pose = stage_.shown(target);
   input.pose_before = stage_.shown_before(target);
   const std::vector<Pose> continued = stage_.continued(target, state_.now, kImpulseStepTicks + 2);
   input.continued = continued;
-  input.blow = blow_of(stage_.body(attacker), stage_.shown(attacker), stage_.body(target),
-                       input.pose, touch.contact, strike.kind);
+  input.blow = blow;
   input.contacts = library_.action(fighter(target).launch.action)
                        .clip.contacts_at(state_.now - fighter(target).launch.start);
   const auto begin = Clock::now();
@@ -284,7 +319,6 @@ void Bout::commit_touch(const Touch& touch) {
   record_.impulse_step_us.push_back(microseconds_since(begin));
   ++record_.counts.impacts;
   record_.counts.impulse_sum_Ns += glm::length(input.blow.impulse);
-  Event event;
   event.replay = replay_text(stage_.body(target), input, outcome, fighter(target).health);
 
   // 2. What it costs. Nobody stands without health.
@@ -295,17 +329,15 @@ void Bout::commit_touch(const Touch& touch) {
     outcome.knockout = true;
   }
 
-  const bool cuts = outcome.knockout ||
-                    interrupts(touch.contact.blocked, glm::length(input.blow.impulse), outcome);
+  const bool cuts =
+      outcome.knockout || interrupts(blow.blocked, glm::length(input.blow.impulse), outcome);
 
   // 3. The record, and the response as the struck fighter's next action.
   event.tick = state_.now;
-  event.type = touch.contact.blocked ? EventType::block : EventType::hit;
+  event.type = blow.blocked ? EventType::block : EventType::hit;
   event.who = attacker;
   event.whom = target;
-  event.action = attack.name;
   event.part = std::string(name_of(input.blow.part));
-  event.strike = strike.kind;
   event.point = input.blow.point;
   event.impulse = input.blow.impulse;
   event.speed = input.blow.speed;
@@ -316,9 +348,11 @@ void Bout::commit_touch(const Touch& touch) {
   event.steps = cuts ? outcome.steps : 0;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
-  note_foreseen(touch, event);
+  note_foreseen(event);
   record_.timeline.events.push_back(event);
-  if (cuts && !fighter(target).down()) respond(target, input, outcome, event);
+  if (!cuts || fighter(target).down()) return;
+  respond(target, input, outcome, event);
+  standing_[target.at()].fell_upon = 1u << attacker.at();  // whose own blow still presses on
 }
 
 void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome,
@@ -330,7 +364,9 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   const Launch launch = answer.launch;
   begin(id, launch, std::move(answer.simulated));
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
+  standing_[id.at()].fell_upon = 0;
 
+  event.fall = false;
   event.type = falls ? EventType::knockdown : EventType::response;
   event.who = id;
   event.whom = {};
@@ -354,8 +390,8 @@ void Bout::foresee() {
 }
 
 // Did the tree foresee this contact, and the same kind of response?
-void Bout::note_foreseen(const Touch& touch, Event& event) {
-  for (const Event& foreseen : standing_[touch.attacker.at()].foreseen) {
+void Bout::note_foreseen(Event& event) {
+  for (const Event& foreseen : standing_[event.who.at()].foreseen) {
     if (foreseen.type == EventType::miss || foreseen.whom != event.whom ||
         foreseen.strike != event.strike || std::abs(foreseen.tick - event.tick) > kForeseenTicks) {
       continue;

@@ -44,6 +44,7 @@ class Bout {
   struct Standing {               // what the bout knows of a fighter beyond the state
     std::vector<Event> foreseen;  // what its strikes in flight will do, by the tree
     bool out = false;
+    std::uint32_t fell_upon = 0;  // bit i: this fall has hit fighter i
   };
 
   FighterState& fighter(FighterId id) { return state_.fighters[id.at()]; }
@@ -56,10 +57,12 @@ class Bout {
   std::vector<Touch> touches() const;
   std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;
   void commit_touch(const Touch& touch);
+  void commit_falls();
+  void deliver(FighterId attacker, FighterId target, const Blow& blow, Event event);
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
   void push_apart();
   void foresee();
-  void note_foreseen(const Touch& touch, Event& event);
+  void note_foreseen(Event& event);
 
   const MotionLibrary& library_;
   const SceneFile& scene_;

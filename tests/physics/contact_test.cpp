@@ -142,5 +142,28 @@ TEST(Zones, GuardPartsBelongToNoneAndTheRestToOne) {
   }
 }
 
+TEST(FallContact, OnlyAPartThatItselfComesFallsUponAnother) {
+  const auto of_head = [](Meeting m) {  // a head in the place of the fist
+    for (BodyCapsules* c : {&m.attacker.before, &m.attacker.after}) {
+      std::swap((*c)[index(Part::head)], (*c)[index(Part::right_hand)]);
+    }
+    return m;
+  };
+  const Meeting fist = fist_at_head({0, 0, -.20f}, {0, 0, .06f}), falls = of_head(fist);
+  EXPECT_FALSE(fall_contact(fist.attacker, fist.target, 1));
+  const auto met = fall_contact(falls.attacker, falls.target, 1);
+  ASSERT_TRUE(met);
+  EXPECT_EQ(met->striker, Part::head);
+  EXPECT_EQ(met->struck, Part::head);
+  EXPECT_FALSE(fall_contact(falls.attacker, falls.target, 8));  // 7.2 m/s
+  // One head runs into another that stays where it is.
+  Meeting walked_into = of_head(fist_at_head({0, 0, -.18f}, {}));
+  Capsule& head = walked_into.target.before[index(Part::head)];
+  head.a.z += .06f;
+  head.b.z += .06f;
+  ASSERT_TRUE(strike_contact(walked_into.attacker, Part::head, walked_into.target));
+  EXPECT_FALSE(fall_contact(walked_into.attacker, walked_into.target, 1));
+}
+
 }  // namespace
 }  // namespace ringcraft
