@@ -1,0 +1,45 @@
+// The rows of the hits study: a figure that is broken misses its bar.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "scene/study_hits_rows.h"
+
+namespace ringcraft {
+namespace {
+
+bool holds(double measured, const HitBar& bar) {
+  HitRows rows;
+  rows.group("group");
+  rows.held("what", "m", measured, "published", bar);
+  EXPECT_EQ(rows.table.rows.size(), 1u);
+  const bool yes = std::get<std::string>(rows.table.rows.front().back()) == "yes";
+  EXPECT_EQ(rows.missed, yes ? 0 : 1);
+  return yes;
+}
+
+TEST(HitRows, ARowHoldsWithinItsBarAndMissesBeyondIt) {
+  EXPECT_TRUE(holds(1.5, at_most(1.5)));
+  EXPECT_FALSE(holds(1.5001, at_most(1.5)));
+  EXPECT_TRUE(holds(95, at_least(95)));
+  EXPECT_FALSE(holds(94.9, at_least(95)));
+  EXPECT_TRUE(holds(30, {.low = 27, .high = 34}));
+  EXPECT_FALSE(holds(26, {.low = 27, .high = 34}));
+  EXPECT_FALSE(holds(35, {.low = 27, .high = 34}));
+}
+
+TEST(HitRows, WhatIsNotANumberMissesEveryBar) {
+  const double broken = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(holds(broken, at_most(1.5)));
+  EXPECT_FALSE(holds(broken, at_least(95)));
+}
+
+TEST(HitRows, WhatIsOnlySaidMissesNothing) {
+  HitRows rows;
+  rows.said("what", "m", -1e9, "");
+  EXPECT_EQ(rows.missed, 0);
+  EXPECT_EQ(rows.table.rows.size(), 1u);
+}
+
+}  // namespace
+}  // namespace ringcraft
