@@ -74,6 +74,7 @@ ImpactMemo::Key ImpactMemo::BlowSteps::key() const {
   p.add(victim, 5).add(static_cast<int>(kind), 3).add(azimuth, 5).add(elevation, 3).add(yaw, 5);
   p.add(blocked ? 1 : 0, 1);
   p.add(struck_action.value, 13).add(struck_age, 12).add(static_cast<int>(struck), 5).add(speed, 8);
+  p.add(place.along, 2).add(place.beside, 3);
   return {p.a(), p.b()};
 }
 
@@ -81,7 +82,7 @@ std::uint64_t ImpactMemo::ImpulseSteps::key() const {
   Packer p;
   p.add(moment.action.value, 13).add(moment.age, 12);
   p.add(static_cast<int>(struck), 5).add(blocked ? 1 : 0, 1).add(azimuth, 5).add(elevation, 3);
-  p.add(impulse, 10);
+  p.add(impulse, 10).add(place.along, 2).add(place.beside, 3);
   return p.a();
 }
 
@@ -94,6 +95,26 @@ ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps&
     classes_.emplace_back(*tables, size_.ticks);
     worlds_.push_back(world_of(*tables, size_));
   }
+}
+
+ImpactMemo::BlowPlace ImpactMemo::place_of(const Capsule& struck, Vec3 line, Vec3 point) {
+  const Vec3 axis = struck.b - struck.a, from_middle = point - (struck.a + struck.b) * 0.5f;
+  const float half = glm::length(axis) / 2;
+  const Vec3 left = normalized_or(glm::cross(kUp, line), kLeft);
+  const float along = half > 0.02f ? glm::dot(from_middle, axis) / (2 * half * half) : 0.0f;
+  const float beside = glm::dot(from_middle, left) / struck.radius;
+  return {static_cast<int>(std::lround(std::clamp(along, -1.0f, 1.0f))),
+          static_cast<int>(std::lround(2 * std::clamp(beside, -1.0f, 1.0f)))};
+}
+
+Vec3 ImpactMemo::point_of(const Capsule& struck, Vec3 line, BlowPlace place) {
+  constexpr float kEnd = 0.7f;  // of the half axis, where a blow meets an end of the part
+  const Vec3 left = normalized_or(glm::cross(kUp, line), kLeft);
+  const float beside = std::min(0.9f, std::abs(static_cast<float>(place.beside)) / 2);
+  const Vec3 middle = (struck.a + struck.b) * 0.5f +
+                      (struck.b - struck.a) * (0.5f * kEnd * static_cast<float>(place.along));
+  return middle + left * (std::copysign(beside, static_cast<float>(place.beside)) * struck.radius) -
+         line * (std::sqrt(1 - beside * beside) * struck.radius);
 }
 
 ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
@@ -116,6 +137,10 @@ ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
   steps.elevation = elevation_step(line);
   steps.yaw = turn_step(blow.attacker_yaw, kYaws);
   steps.speed = step_of(speed, size_.speed, 255);
+  const MotionTables& victim = *bodies_[static_cast<std::size_t>(blow.victim)];
+  steps.place =
+      place_of(part_capsule(victim, blow.struck_action, std::max(0, blow.struck_age), steps.struck),
+               line, blow.contact.point);
   return steps;
 }
 
@@ -134,7 +159,7 @@ Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
   contact.struck = steps.struck;
   contact.blocked = steps.blocked;
   contact.normal = -line;
-  contact.point = (struck.a + struck.b) * 0.5f + contact.normal * struck.radius;
+  contact.point = point_of(struck, line, steps.place);
   contact.velocity = line * (static_cast<float>(steps.speed) * size_.speed);
 
   const Frame turned(Placement{0, 0, turn_of(steps.yaw, kYaws)});
@@ -160,6 +185,7 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impuls
                                                                     blow.struck_age * size_.ticks);
   steps.struck = blow.struck;
   steps.blocked = blow.blocked;
+  steps.place = blow.place;
   steps.azimuth = turn_step(yaw_of(impulse) - root_yaw(blow), size_.azimuths);
   steps.elevation = elevation_step(impulse);
   steps.impulse = step_of(glm::length(impulse), size_.impulse, 1000);
@@ -186,7 +212,7 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotio
   }
   input.continued = continued;
   input.blow.part = steps.struck;
-  input.blow.point = (struck.a + struck.b) * 0.5f - line * struck.radius;
+  input.blow.point = point_of(struck, line, steps.place);
   input.blow.impulse = line * answer.impulse;
   input.blow.blocked = steps.blocked;
   input.contacts = action.action->clip.contacts_at(age);
@@ -284,6 +310,9 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
   landed.contact.normal = kForward;
   landed.contact.velocity = -kForward * speed;
   landed.attacker_yaw = kPi;
+  landed.contact.point = point_of(
+      part_capsule(*bodies_[static_cast<std::size_t>(victim)], standing, 0, landed.contact.struck),
+      -kForward, {0, 0});
   const BlowSteps steps = steps_of(landed);
   return kept(steps_of(steps, impulse_of(steps))).damage;
 }

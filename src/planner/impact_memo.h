@@ -66,6 +66,14 @@ class ImpactMemo {
   template <class Value>
   using Shards = std::array<Shard<Value>, 16>;
 
+  // Where a blow meets a part: what turns a head is that its line passes beside the middle.
+  struct BlowPlace {
+    int along;   // the part's axis: -1 at its beginning, 1 at its end
+    int beside;  // the middle, to the left of the line of the blow: halves of the radius, -2 to 2
+  };
+  static BlowPlace place_of(const Capsule& struck, Vec3 line, Vec3 point);
+  static Vec3 point_of(const Capsule& struck, Vec3 line, BlowPlace place);
+
   // The quantised blow and the quantised impulse, as numbers of steps.
   struct BlowSteps {
     int attacker, victim;
@@ -75,6 +83,7 @@ class ImpactMemo {
     Part striker, struck;
     bool blocked;
     int azimuth, elevation, yaw, speed;
+    BlowPlace place;
     Key key() const;
   };
   struct ImpulseSteps {
@@ -84,6 +93,7 @@ class ImpactMemo {
     bool blocked;
     int azimuth;  // off the facing of the struck body's root
     int elevation, impulse;
+    BlowPlace place;
     std::uint64_t key() const;
   };
 
