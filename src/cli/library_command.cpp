@@ -68,7 +68,9 @@ std::optional<Yardstick> measured_against_a_boxer(const MotionLibrary& library) 
   if (!std::filesystem::exists(kRealBoxer)) return std::nullopt;
   const auto real = read_canonical(kRealBoxer, library.skeleton());
   if (!real) return std::nullopt;
-  return yardstick(library, mirrored(real->clip), ticks(kRealFrom), ticks(kRealTo));
+  Yardstick measured = yardstick(library, mirrored(real->clip), ticks(kRealFrom), ticks(kRealTo));
+  if (measured.farthest.empty()) return std::nullopt;  // nothing authored that boxes
+  return measured;
 }
 
 nlohmann::json json_of(const LibraryCheck& check) {
