@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/document.h"
+#include "base/file.h"
 
 namespace ringcraft {
 namespace {
@@ -118,6 +119,36 @@ Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& 
   return profiles;
 }
 
+Result<SkeletonProfile> profile_named(const std::string& name) {
+  const auto profiles = read_profiles(assets_folder() / "profiles");
+  if (!profiles) return tl::unexpected(profiles.error());
+  std::string known;
+  for (const SkeletonProfile& profile : *profiles) {
+    if (profile.name == name) return profile;
+    known += (known.empty() ? "" : ", ") + profile.name;
+  }
+  return usage_error("", "", fmt::format("no skeleton profile is called '{}'", name),
+                     "known names: " + known);
+}
+
+Quat axes_of(const SkeletonProfile& profile) {
+  // Left is up x forward; the columns are where our x, y and z lie in the file.
+  const glm::mat3 file_axes(glm::cross(profile.up, profile.forward), profile.up, profile.forward);
+  return glm::normalize(glm::quat_cast(glm::transpose(file_axes)));
+}
+
+ForeignSkeleton foreign_skeleton(const SkeletonProfile& profile) {
+  ForeignSkeleton form;
+  const std::string prefix = profile.prefixes.empty() ? "" : profile.prefixes.front();
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const std::string& name = profile.source.at(i);
+    if (!name.empty()) form.name.at(i) = prefix + name;
+  }
+  form.metres_per_unit = profile.metres_per_unit.front();
+  form.axes = axes_of(profile);
+  return form;
+}
+
 float score(const SkeletonProfile& profile, const RawClip& clip) {
   const auto found = found_joints(profile, clip);
   int listed = 0;
@@ -163,9 +194,7 @@ Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip)
           clip.file, fmt::format("joint {}", profile.source[j]),
           fmt::format("profile {} needs it for {}", profile.name, vrm_name(joint_at(j))),
           "use another profile");
-  // Left is up x forward; the columns are where our x, y and z lie in the file.
-  const glm::mat3 file_axes(glm::cross(profile.up, profile.forward), profile.up, profile.forward);
-  map.axes = glm::normalize(glm::quat_cast(glm::transpose(file_axes)));
+  map.axes = axes_of(profile);
 
   const RawPose rest = raw_rest_pose(clip);
   const auto place = [&](Joint joint) {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "capture/raw_clip.h"
-#include "motion/skeleton.h"
+#include "motion/foreign_skeleton.h"
 
 namespace ringcraft {
 
@@ -32,6 +32,15 @@ struct JointMap {
 };
 
 Result<SkeletonProfile> read_profile(const std::filesystem::path& path);
+
+// The profile of a bare name in assets/profiles.
+Result<SkeletonProfile> profile_named(const std::string& name);
+
+// Turns the axes of a profile's files to ours.
+Quat axes_of(const SkeletonProfile& profile);
+
+// The canonical skeleton with a profile's names, in its first unit.
+ForeignSkeleton foreign_skeleton(const SkeletonProfile& profile);
 
 // All profiles of a folder, by file name.
 Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& folder);

@@ -25,6 +25,7 @@ struct CommonOptions {
 
 struct FightCommandOptions {
   std::vector<std::string> exports = {};  // bvh, vrma
+  std::string profile;                    // whose skeleton the BVH has; empty: VRM's names
   bool root_motion = false;
 };
 

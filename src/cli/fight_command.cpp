@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "capture/character.h"
 #include "capture/library_file.h"
+#include "capture/profile.h"
 #include "cli/commands.h"
 #include "scene/fight.h"
 #include "scene/fight_files.h"
@@ -39,6 +40,11 @@ Result<std::vector<std::shared_ptr<const Character>>> characters_of(const SceneF
   return characters;
 }
 
+Result<ForeignSkeleton> export_skeleton(const std::string& profile) {
+  if (profile.empty()) return vrm_skeleton();
+  return profile_named(profile).map(foreign_skeleton);
+}
+
 }  // namespace
 
 int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
@@ -51,6 +57,8 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
                                            ? std::filesystem::path("out") / scene->name
                                            : std::filesystem::path(options.out);
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto skeleton = export_skeleton(fight.profile);
+  if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
   const auto library = load_library(scene->library);
@@ -76,7 +84,8 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const auto wants = [&](std::string_view format) {
     return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
   };
-  const FightExtras extras{wants("bvh"), wants("vrma"), fight.root_motion, *characters};
+  FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
+  if (wants("bvh")) extras.bvh = *skeleton;
   const auto summary =
       write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());

@@ -61,6 +61,11 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"bvh", "vrma"}))
       ->delimiter(',')
       ->allow_extra_args(false);
+  fight
+      ->add_option("--export-profile", fight_options.profile,
+                   "Names, axes and unit of the BVH: a file of assets/profiles")
+      ->type_name("PROFILE")
+      ->needs("--export");
   fight->add_flag("--root-motion", fight_options.root_motion,
                   "fight.glb moves each fighter's own node over the ground");
   add_common(*fight, options);

@@ -88,7 +88,7 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
     const FighterTrack& track = record.timeline.tracks[i];
     if (extras.bvh)
       files.emplace_back(fmt::format("fighter{}.bvh", i),
-                         fighter_bvh(looks[i].body.skeleton, track));
+                         fighter_bvh(looks[i].body.skeleton, track, *extras.bvh));
     if (extras.vrma)
       files.emplace_back(fmt::format("fighter{}.vrma", i), fighter_vrma(looks[i], track));
   }

@@ -3,19 +3,21 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "motion/character.h"
+#include "motion/foreign_skeleton.h"
 #include "scene/fight.h"
 
 namespace ringcraft {
 
 // What is written only on request.
 struct FightExtras {
-  bool bvh = false;          // fighter0.bvh ...: one a fighter
-  bool vrma = false;         // fighter0.vrma ...: VRM animations, one a fighter
-  bool root_motion = false;  // fight.glb moves each fighter's own node over the ground
+  std::optional<ForeignSkeleton> bvh;  // fighter0.bvh ...: one a fighter, for that skeleton
+  bool vrma = false;                   // fighter0.vrma ...: VRM animations, one a fighter
+  bool root_motion = false;            // fight.glb moves each fighter's own node over the ground
   // Of each fighter, in place of the mannequin; shorter than the fighters or null where it has
   // none.
   std::vector<std::shared_ptr<const Character>> characters = {};
