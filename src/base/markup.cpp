@@ -16,6 +16,12 @@ std::string escaped(std::string_view text) {
       case '&':
         out += "&amp;";
         break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
       default:
         out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }

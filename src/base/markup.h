@@ -6,8 +6,8 @@
 
 namespace ringcraft {
 
-// `text` as the content of an element: <, > and & as entities, control characters as spaces.
-// Not for attributes: quotes stay.
+// `text` as the content of an element or of an attribute in quotes: <, >, & and quotes as entities,
+// control characters as spaces.
 std::string escaped(std::string_view text);
 
 }  // namespace ringcraft

@@ -55,17 +55,6 @@ Correction correction(const Plant& plant, const FootTrack& track, std::size_t i)
   return {ball, {ball.x, plant.lift, ball.z}};
 }
 
-// The least within `around` ticks where it is below zero, the most where it is above: a smoothed
-// track then still gives each moment what it needs.
-std::vector<float> widened(const std::vector<float>& needs, std::size_t around) {
-  const std::size_t count = needs.size();
-  std::vector<float> out(count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t k = i >= around ? i - around : 0; k <= std::min(count - 1, i + around); ++k)
-      if (std::abs(needs[k]) > std::abs(out[i])) out[i] = needs[k];
-  return out;
-}
-
 // Turns the foot to where ball and ankle want it, with its heel out of the floor; where that lays
 // it, the ball goes down.
 void turn_feet(const Skeleton& skeleton, Side side, FootTrack& track) {

@@ -28,7 +28,7 @@ void add(Hasher& hasher, const Event& event) {
   add(hasher, event.point);
   add(hasher, event.impulse);
   hasher.add(event.speed).add(event.damage).add(event.response).add(event.steps);
-  hasher.add(event.direction).add(event.knockout).add(event.foreseen);
+  hasher.add(event.direction).add(event.knockout).add(event.foreseen).add(event.fall);
   add(hasher, event.decision);
 }
 

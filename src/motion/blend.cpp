@@ -155,13 +155,8 @@ std::vector<float> sinks(const Skeleton& skeleton, const Clip& clip,
     }
   }
   if (*std::max_element(sink.begin(), sink.end()) < 1e-4f) return {};
-  std::vector<float> wide(sink.size(), 0.0f);
-  const auto reach = static_cast<std::size_t>(ticks(2.0 * static_cast<double>(kSinkSmooth)));
-  for (std::size_t i = 0; i < sink.size(); ++i) {
-    const std::size_t from = i > reach ? i - reach : 0, to = std::min(sink.size(), i + reach + 1);
-    for (std::size_t k = from; k < to; ++k) wide[i] = std::max(wide[i], sink[k]);
-  }
-  return smoothed(wide, kSinkSmooth);
+  const auto around = static_cast<std::size_t>(ticks(2.0 * static_cast<double>(kSinkSmooth)));
+  return smoothed(widened(sink, around), kSinkSmooth);
 }
 
 void place_feet(const Skeleton& skeleton, std::array<FootTrack, kFeet>& feet, Clip& clip) {

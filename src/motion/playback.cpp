@@ -23,7 +23,6 @@ constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
-constexpr float kFarTurn = 0.0f;          // rad, of a shoulder or an elbow
 constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
@@ -183,13 +182,10 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     const Vec3 clip_hand_moved = world_after.position[hand] - world_now.position[hand];
     arm_reach_[static_cast<std::size_t>(side)] =
         std::min(reach_share(skeleton_, arm(side), shown), 0.995f);
-    // Arms that have to turn far go by their joints: led by the hand, their elbows would turn over.
-    const bool by_joints =
-        simulated_ && std::max(glm::length(rotation_[index(arm(side).root)].value()),
-                               glm::length(rotation_[index(arm(side).middle)].value())) > kFarTurn;
     const auto i = static_cast<std::size_t>(side);
     hands_[i] = shoulders_[i] = {};
-    if (by_joints) {
+    // After a simulation arms go by their joints: led by the hand, their elbows would turn over.
+    if (simulated_) {
       shoulders_[i] = shoulder_decay(side, before_, shown_, now, after, seconds);
       continue;
     }

@@ -87,6 +87,15 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& values, float sigma) {
   return gaussian_mean(values, sigma);
 }
 
+std::vector<float> widened(const std::vector<float>& needs, std::size_t around) {
+  const std::size_t count = needs.size();
+  std::vector<float> out(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = i >= around ? i - around : 0; k <= std::min(count - 1, i + around); ++k)
+      if (std::abs(needs[k]) > std::abs(out[i])) out[i] = needs[k];
+  return out;
+}
+
 std::vector<float> unwrapped(std::vector<float> angles) {
   for (std::size_t i = 1; i < angles.size(); ++i)
     angles[i] = angles[i - 1] + wrapped_angle(angles[i] - angles[i - 1]);

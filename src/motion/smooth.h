@@ -14,6 +14,10 @@ std::vector<float> smoothed(const std::vector<float>& values, const std::vector<
 std::vector<float> smoothed(const std::vector<float>& values, float sigma);
 std::vector<Vec3> smoothed(const std::vector<Vec3>& values, float sigma);
 
+// Of all values within `around` ticks the one farthest from zero: smoothed afterwards, a track
+// still gives each moment what it needs.
+std::vector<float> widened(const std::vector<float>& needs, std::size_t around);
+
 // Angles in radians without jumps of a full turn.
 std::vector<float> unwrapped(std::vector<float> angles);
 

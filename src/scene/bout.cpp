@@ -391,6 +391,7 @@ void Bout::foresee() {
 
 // Did the tree foresee this contact, and the same kind of response?
 void Bout::note_foreseen(Event& event) {
+  if (event.fall) return;  // the tree knows strikes only
   for (const Event& foreseen : standing_[event.who.at()].foreseen) {
     if (foreseen.type == EventType::miss || foreseen.whom != event.whom ||
         foreseen.strike != event.strike || std::abs(foreseen.tick - event.tick) > kForeseenTicks) {

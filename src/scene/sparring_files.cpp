@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/markup.h"
+
 namespace ringcraft {
 
 namespace {
@@ -94,9 +96,9 @@ std::string table_json(const std::string& name, std::span<const Action> actions,
 std::string table_html(std::span<const Action> actions, const OffenseDefenseTable& table) {
   const std::vector<ActionId> defenses = defenses_of(actions, table);
   std::string head, rows;
-  for (const ActionId id : defenses) head += "<th>" + actions[id.at()].name;
+  for (const ActionId id : defenses) head += "<th>" + escaped(actions[id.at()].name);
   for (const ActionId attack : attacks_of(actions, table)) {
-    rows += "<tr><th>" + actions[attack.at()].name;
+    rows += "<tr><th>" + escaped(actions[attack.at()].name);
     for (const ActionId defense : defenses) {
       const DefenseEntry* entry = table.entry(attack, defense);
       if (entry == nullptr) {
@@ -115,7 +117,7 @@ std::string table_html(std::span<const Action> actions, const OffenseDefenseTabl
 
 std::string table_page(const std::string& name, std::span<const Action> actions,
                        const OffenseDefenseTable& table) {
-  return fmt::format(kPage, name, table_html(actions, table));
+  return fmt::format(kPage, escaped(name), table_html(actions, table));
 }
 
 std::string table_text(std::span<const Action> actions, const OffenseDefenseTable& table) {

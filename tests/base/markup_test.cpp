@@ -5,8 +5,8 @@
 namespace ringcraft {
 namespace {
 
-TEST(Markup, NothingInATextOpensAnElementOrAnEntity) {
-  EXPECT_EQ(escaped("a<b>&amp; \"c\""), "a&lt;b&gt;&amp;amp; \"c\"");
+TEST(Markup, NothingInATextOpensAnElementOrAnEntityOrEndsAnAttribute) {
+  EXPECT_EQ(escaped("a<b>&amp; \"c\" 'd'"), "a&lt;b&gt;&amp;amp; &quot;c&quot; &#39;d&#39;");
   EXPECT_EQ(escaped("</script><script>"), "&lt;/script&gt;&lt;script&gt;");
 }
 
