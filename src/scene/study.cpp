@@ -12,6 +12,8 @@
 namespace ringcraft {
 namespace {
 
+constexpr double kZ975 = 1.959964;  // 97.5 % of the normal distribution
+
 std::string cell_text(const StudyCell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *whole);
@@ -132,12 +134,29 @@ Result<void> write_study(const std::filesystem::path& folder, const Study& study
 
 Interval wilson(std::size_t wins, std::size_t of) {
   if (of == 0) return {};
-  constexpr double kZ = 1.959964;  // of the normal distribution's 97.5 %
+  constexpr double kZ = kZ975;
   const auto n = static_cast<double>(of);
   const double p = static_cast<double>(wins) / n;
   const double spread = kZ * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
   const double middle = p + kZ * kZ / (2 * n), whole = 1 + kZ * kZ / n;
   return {std::max(0.0, (middle - spread) / whole), std::min(1.0, (middle + spread) / whole)};
+}
+
+MeanInterval mean_interval(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  const double mean = sum / n;
+  if (values.size() < 2) return {mean, mean, mean};
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  // Student's t at 97.5 % for n - 1 degrees of freedom (Abramowitz & Stegun 26.7.5).
+  constexpr double z = kZ975, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+  const double v = n - 1;
+  const double t = z + (z3 + z) / (4 * v) + (5 * z5 + 16 * z3 + 3 * z) / (96 * v * v) +
+                   (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * v * v * v);
+  const double spread = t * std::sqrt(squares / v / n);
+  return {mean, mean - spread, mean + spread};
 }
 
 double quantile(std::vector<double> values, double share) {

@@ -18,15 +18,19 @@ namespace {
 constexpr float kNearestStart = 1.6f, kFarthestStart = 3.0f;  // m
 constexpr float kMostTurned = radians(29);
 
-double largest_share(const FighterTrack& track) {
+// The action that a fighter chose most, and its share.
+std::pair<double, std::string> most_used(const FighterTrack& track) {
   std::map<std::string, int> uses;
   int all = 0, most = 0;
+  std::string action;
   for (const Segment& segment : track.segments) {
     if (segment.launch.forced) continue;
-    most = std::max(most, ++uses[segment.name]);
     ++all;
+    if (++uses[segment.name] <= most) continue;
+    most = uses[segment.name];
+    action = segment.name;
   }
-  return all == 0 ? 0 : static_cast<double>(most) / all;
+  return {all == 0 ? 0 : static_cast<double>(most) / all, action};
 }
 
 void count_segments(const Timeline& timeline, BoutTally& tally) {
@@ -40,7 +44,10 @@ void count_segments(const Timeline& timeline, BoutTally& tally) {
       own.steps += segment.kind == Kind::transition ? 1 : 0;
       own.chosen += segment.launch.forced ? 0 : 1;
     }
-    tally.most_used = std::max(tally.most_used, largest_share(timeline.tracks[i]));
+    const auto [share, action] = most_used(timeline.tracks[i]);
+    if (share <= tally.most_used) continue;
+    tally.most_used = share;
+    tally.most_used_action = action;
   }
 }
 
@@ -61,6 +68,8 @@ struct Totals {
   std::size_t wins = 0, draws = 0, bouts = 0, without_contact = 0;
   double seconds = 0, quiet_most = 0, quiet_sum = 0, used_most = 0;
   double distance = 0, far = 0, ticks = 0;
+  std::string used_most_action;
+  std::vector<double> leads;  // of the first side in damage, points, one a bout
 };
 
 Totals totals_of(const PairingResult& result) {
@@ -74,7 +83,9 @@ Totals totals_of(const PairingResult& result) {
     sum.seconds += bout.seconds;
     sum.quiet_most = std::max(sum.quiet_most, bout.quiet_s);
     sum.quiet_sum += bout.quiet_s;
+    if (bout.most_used > sum.used_most) sum.used_most_action = bout.most_used_action;
     sum.used_most = std::max(sum.used_most, bout.most_used);
+    sum.leads.push_back(bout.side[0].damage - bout.side[1].damage);
     sum.distance += bout.distance_sum;
     sum.far += bout.far_ticks;
     sum.ticks += bout.ticks;
@@ -99,7 +110,12 @@ std::vector<StudyCell> row_of(const std::string& name, const Totals& sum) {
                              static_cast<std::int64_t>(sum.draws),
                              over(static_cast<double>(sum.wins), static_cast<double>(sum.bouts)),
                              share.low,
-                             share.high};
+                             share.high,
+                             over(static_cast<double>(sum.draws), static_cast<double>(sum.bouts))};
+  const MeanInterval lead = mean_interval(sum.leads);
+  row.emplace_back(lead.mean);
+  row.emplace_back(lead.low);
+  row.emplace_back(lead.high);
   for (const SideTally& side : sum.side) {
     row.emplace_back(over(static_cast<double>(side.hits), minutes));
     row.emplace_back(over(side.damage, minutes));
@@ -112,7 +128,9 @@ std::vector<StudyCell> row_of(const std::string& name, const Totals& sum) {
   row.emplace_back(over(sum.distance, sum.ticks));
   row.emplace_back(over(sum.far, sum.ticks));
   row.emplace_back(sum.quiet_most);
+  row.emplace_back(over(sum.quiet_sum, static_cast<double>(sum.bouts)));
   row.emplace_back(sum.used_most);
+  row.emplace_back(sum.used_most_action);
   row.emplace_back(static_cast<std::int64_t>(sum.without_contact));
   return row;
 }
@@ -253,15 +271,17 @@ std::optional<Pairing> horizon_pairing(const std::string& name, const Style& sty
 }
 
 void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
-  study.table.columns = {"pairing", "bouts", "wins", "draws", "win_share", "win_low", "win_high"};
+  study.table.columns = {"pairing",     "bouts",    "wins",     "draws",
+                         "win_share",   "win_low",  "win_high", "draw_share",
+                         "lead_points", "lead_low", "lead_high"};
   for (const char* side : {"a", "b"}) {
     for (const char* what : {"hits_per_min", "damage_per_min", "landed_share", "knockdowns_per_min",
                              "steps_per_min", "defenses_per_attack_faced", "looked_ahead_s"}) {
       study.table.columns.push_back(fmt::format("{}_{}", side, what));
     }
   }
-  for (const char* name : {"distance_m", "beyond_reach_share", "longest_quiet_s", "most_used_share",
-                           "bouts_without_contact"}) {
+  for (const char* name : {"distance_m", "beyond_reach_share", "longest_quiet_s", "mean_quiet_s",
+                           "most_used_share", "most_used_action", "bouts_without_contact"}) {
     study.table.columns.emplace_back(name);
   }
   study.timing.columns = {"pairing",
@@ -273,12 +293,14 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
   std::vector<std::string> names;
   names.reserve(results.size());
   for (const PairingResult& result : results) names.push_back(result.pairing.name);
-  study.charts = {chart_of("Wins of the first side, 95 % intervals", "share of bouts", names),
-                  chart_of("Hits", "per minute and side", names),
-                  chart_of("Defenses per attack faced", "defenses per attack", names),
-                  chart_of("Steps", "per minute and side", names)};
-  study.charts[0].series = {{"", {}}};
-  for (std::size_t c = 1; c < study.charts.size(); ++c) {
+  study.charts = {
+      chart_of("Wins of the first side, 95 % intervals", "share of bouts", names),
+      chart_of("Lead of the first side, 95 % intervals", "points of damage a bout", names),
+      chart_of("Hits", "per minute and side", names),
+      chart_of("Defenses per attack faced", "defenses per attack", names),
+      chart_of("Steps", "per minute and side", names)};
+  for (std::size_t c = 0; c < 2; ++c) study.charts[c].series = {{"", {}}};
+  for (std::size_t c = 2; c < study.charts.size(); ++c) {
     study.charts[c].series = {{"first", {}}, {"second", {}}};
   }
   for (std::size_t p = 0; p < results.size(); ++p) {
@@ -296,6 +318,8 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
     const auto x = static_cast<double>(p);
     study.charts[0].series[0].points.push_back(
         {x, static_cast<double>(sum.wins) / static_cast<double>(sum.bouts), share.low, share.high});
+    const MeanInterval lead = mean_interval(sum.leads);
+    study.charts[1].series[0].points.push_back({x, lead.mean, lead.low, lead.high});
     for (std::size_t i = 0; i < 2; ++i) {
       const SideTally& side = sum.side[i];
       const double values[] = {
@@ -303,7 +327,7 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
           over(static_cast<double>(side.defenses), static_cast<double>(side.faced)),
           over(static_cast<double>(side.steps), sum.seconds / 60)};
       for (std::size_t c = 0; c < 3; ++c) {
-        study.charts[c + 1].series[i].points.push_back({x, values[c], {}, {}});
+        study.charts[c + 2].series[i].points.push_back({x, values[c], {}, {}});
       }
     }
   }

@@ -37,7 +37,8 @@ struct BoutTally {
   double distance_sum = 0, far_ticks = 0;  // m times ticks; ticks beyond kArmsLength
   double ticks = 0;
   double most_used = 0;  // the largest share that one action has of what a fighter chose
-  int winner = -1;       // 0, 1, or -1: a draw
+  std::string most_used_action;
+  int winner = -1;  // 0, 1, or -1: a draw
   bool contact = false;
 };
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/file.h"
 #include "fight/synthetic_fixture.h"
 #include "scene/study_slowed.h"
@@ -100,6 +102,37 @@ TEST_F(StudyBoutsTest, TallyCountsWhatTheEventsSay) {
   tally = tally_of(record);
   EXPECT_EQ(tally.winner, 1);
   EXPECT_EQ(tally.side[1].knockdowns, 1);
+}
+
+TEST_F(StudyBoutsTest, TableSaysLeadDrawsQuietAndTheMostUsedAction) {
+  PairingResult result;
+  result.pairing = pairing();
+  for (int i = 1; i <= 5; ++i) {
+    BoutTally bout;
+    bout.side[0].damage = i;
+    bout.seconds = 60;
+    bout.quiet_s = 2 * i;
+    bout.winner = i == 1 ? -1 : 0;
+    bout.most_used = 0.1 * i;
+    bout.most_used_action = i == 5 ? "jab" : "cross";
+    result.bouts.push_back(bout);
+  }
+  Study study;
+  fill_bouts(study, {result});
+  ASSERT_EQ(study.table.columns.size(), study.table.rows.front().size());
+  const auto cell = [&](const std::string& column) {
+    const auto& columns = study.table.columns;
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    EXPECT_NE(at, columns.end()) << column;
+    return study.table.rows.front()[static_cast<std::size_t>(at - columns.begin())];
+  };
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("draw_share")), 0.2);
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("lead_points")), 3);
+  EXPECT_NEAR(std::get<double>(cell("lead_low")), 3 - 1.963, 0.01);  // t = 2.776, s = 1.581
+  EXPECT_NEAR(std::get<double>(cell("lead_high")), 3 + 1.963, 0.01);
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("mean_quiet_s")), 6);
+  EXPECT_EQ(std::get<std::string>(cell("most_used_action")), "jab");
+  EXPECT_EQ(std::get<std::int64_t>(cell("bouts_without_contact")), 5);
 }
 
 TEST_F(StudyBoutsTest, NearlyEqualDamageIsADraw) {
