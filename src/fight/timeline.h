@@ -70,7 +70,9 @@ struct Event {
   bool knockout = false;
   bool fall = false;      // the hit of a falling body, not of a strike
   bool foreseen = false;  // the tree foresaw this hit with the same response
-  std::string replay;     // what recomputes this hit, opaque (scene/hit_replay.h); not hashed
+  // Of a strike and a hit: how tired `who` is, 0 .. 1; not hashed, follows from the rest.
+  float fatigue = 0;
+  std::string replay;  // what recomputes this hit, opaque (scene/hit_replay.h); not hashed
   DecisionRecord decision;
 };
 

@@ -102,11 +102,13 @@ json event_json(const Event& event, bool with_lines) {
     case EventType::strike:
     case EventType::miss:
       object["strike"] = name_of(event.strike);
+      if (event.fatigue > 0) object["fatigue"] = rounded(event.fatigue, 4);
       break;
     case EventType::hit:
     case EventType::block:
       add_contact(object, event);
       add_response(object, event);
+      if (event.fatigue > 0) object["fatigue"] = rounded(event.fatigue, 4);
       if (with_lines && !event.replay.empty()) object["replay"] = event.replay;
       break;
     case EventType::response:

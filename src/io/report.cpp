@@ -99,6 +99,12 @@ json fighters_json(const Timeline& timeline, const std::vector<FighterLook>& loo
                         {"recovery_steps", tally.recovery_steps},
                         {"knockdowns", tally.knockdowns},
                         {"knockouts", tally.knockouts},
+                        {"fatigue", rounded(contestant.fatigue, 4)},
+                        {"injuries",
+                         {{"left_arm", rounded(contestant.injuries[0], 4)},
+                          {"right_arm", rounded(contestant.injuries[1], 4)},
+                          {"left_leg", rounded(contestant.injuries[2], 4)},
+                          {"right_leg", rounded(contestant.injuries[3], 4)}}},
                         {"mean_distance_m", rounded(mean_distance(timeline, i), 4)}});
   }
   return fighters;

@@ -1,6 +1,7 @@
 #pragma once
 // report.json and timing.json of a fight (design section 8).
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct RunFacts {
   struct Contestant {
     std::string style;
     double horizon_s = 0;
+    // At the end, 0 .. 1: how tired, and how hurt left arm, right arm, left leg and right leg are.
+    double fatigue = 0;
+    std::array<double, 4> injuries{};
   };
   std::string version = RINGCRAFT_VERSION;
   std::string scene;

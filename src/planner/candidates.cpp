@@ -241,8 +241,48 @@ void Duel::score_candidates(const Node& node, int who) {
     }
   }
   if (scored_.empty() && spare.next != nullptr) scored_.push_back(spare);
-  pick_candidates(static_cast<std::size_t>(std::max(1, own.style->candidates)),
-                  !aspect.threats.empty());
+  const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
+  pick_candidates(most, !aspect.threats.empty());
+  if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
+}
+
+// What the opponent was seen to do in such a situation takes the place of what it could do: the
+// usual list shrinks as the counts come to be believed, and the habits cover as much of what was
+// seen. A list that is no longer than what is known of the opponent is no pathology: it is not
+// expected to do anything else.
+void Duel::foresee_habit(const Node& node, std::size_t most) {
+  const Duelist& self = node.side[1];
+  const float apart = glm::distance(node.side[0].flight.root_at(node.now).position(),
+                                    self.flight.root_at(node.now).position());
+  const Situation situation = situation_of(apart, self.flight.table->action->kind);
+  const int total = setup_->habits->total(situation);
+  if (total == 0) return;
+  const double belief = setup_->learning * Habits::belief(total);
+  const auto others =
+      static_cast<std::size_t>(std::lround((1 - belief) * static_cast<double>(most)));
+  foreseen_.clear();
+  int covered = 0;
+  for (const Habits::Seen& seen : setup_->habits->seen(situation)) {
+    if (foreseen_.size() >= most || covered >= belief * total) break;
+    covered += seen.count;
+    for (const Scored& one : scored_) {  // the best of those that begin with what was seen
+      const NextAction& next = *one.next;
+      if ((next.path.empty() ? next.to : next.path.front()) != seen.action) continue;
+      foreseen_.push_back(one);
+      break;
+    }
+  }
+  if (foreseen_.empty()) return;  // nothing of it can follow here
+  std::size_t left = others;
+  for (const Scored& one : picked_) {
+    if (left == 0) break;
+    const bool known = std::any_of(foreseen_.begin(), foreseen_.end(),
+                                   [&](const Scored& f) { return f.next == one.next; });
+    if (known) continue;
+    foreseen_.push_back(one);
+    --left;
+  }
+  picked_.swap(foreseen_);
 }
 
 // The best of each class that must not be missing, then the best of the rest; in order of score.

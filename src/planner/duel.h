@@ -8,6 +8,7 @@
 #include <array>
 
 #include "planner/evaluation.h"
+#include "planner/habits.h"
 #include "planner/impact_memo.h"
 #include "planner/plan.h"
 #include "planner/search.h"
@@ -70,6 +71,8 @@ struct SideSetup {
 struct DuelSetup {
   std::array<SideSetup, 2> side;
   LeafFactors factors;
+  const Habits* habits = nullptr;  // of side 1, where side 0 learns
+  double learning = 0;             // Style::learning of side 0
   PlanSettings settings;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
@@ -185,11 +188,12 @@ class Duel {
     const NextAction* next;
     bool taken;
   };
-  std::vector<Scored> scored_, picked_;  // of moves()
+  std::vector<Scored> scored_, picked_, foreseen_;  // of moves()
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
   void pick_candidates(std::size_t most, bool threatened);
+  void foresee_habit(const Node& node, std::size_t most);
 };
 static_assert(Game<Duel>);
 

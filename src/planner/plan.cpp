@@ -47,7 +47,10 @@ struct Planner::Inside {
   std::unique_ptr<ImpactMemo> memo;
   // clean[attacker body][victim body][action][strike], thousandths.
   std::vector<std::vector<std::vector<std::vector<std::int32_t>>>> clean;
-  std::vector<std::vector<double>> use;  // phi by contender and action
+  std::vector<std::vector<double>> use;   // phi by contender and action
+  std::vector<std::vector<double>> work;  // J by contender and action; empty where it never tires
+  std::vector<Condition> condition;       // by contender
+  std::vector<Habits> habits;             // by contender
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
          std::shared_ptr<ImpactStore> store);
@@ -55,6 +58,7 @@ struct Planner::Inside {
                   Tick last_contact) const;
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
+  double work_of(FighterId fighter, ActionId action) const;
   Searched search(const DuelSetup& setup, const FightState& state, const PlanLimits& limits) const;
   Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root) const;
   std::size_t choice(const Roots& roots, const Style& style, Tick now, FighterId fighter) const;
@@ -89,6 +93,21 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
     }
   }
   use.assign(contenders.size(), std::vector<double>(library.actions().size(), 0.0));
+  condition.resize(contenders.size());
+  habits.resize(contenders.size());
+  work.resize(contenders.size());
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    if (contenders[i].style.fatigue <= 0) continue;
+    const MotionTables& own = *tables[static_cast<std::size_t>(body_of[i])];
+    for (std::size_t a = 0; a < library.actions().size(); ++a) {
+      work[i].push_back(kinetic_work(own.body(), own.at(ActionId(a)).pose));
+    }
+  }
+}
+
+double Planner::Inside::work_of(FighterId fighter, ActionId action) const {
+  const std::vector<double>& own = work[fighter.at()];
+  return own.empty() ? 0 : own[action.at()];
 }
 
 FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighter) const {
@@ -120,8 +139,11 @@ SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double
   side.style = &contenders[fighter.at()].style;
   side.weights = weights_at(*side.style, quiet);
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
-    side.launch.push_back(thousandths(
-        launch_points(side.weights, *side.style, library.actions()[i], use[fighter.at()][i])));
+    const Action& action = library.actions()[i];
+    const double points = launch_points(side.weights, *side.style, action, use[fighter.at()][i]);
+    side.launch.push_back(
+        thousandths(points - condition_cost(condition[fighter.at()], *side.style, action,
+                                            work_of(fighter, ActionId(i)))));
   }
   side.clean_damage =
       clean[static_cast<std::size_t>(side.body)][static_cast<std::size_t>(body_of[other.at()])];
@@ -134,6 +156,8 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   DuelSetup setup;
   setup.side[0] = side_setup(fighter, opponent, quiet);
   setup.side[1] = side_setup(opponent, fighter, quiet);
+  setup.learning = setup.side[0].style->learning;
+  if (setup.learning > 0) setup.habits = &habits[opponent.at()];
   setup.factors = leaf_factors(setup.side[0].weights);
   setup.settings = settings;
   setup.memo = memo.get();
@@ -433,6 +457,27 @@ void Planner::note_launch(FighterId fighter, ActionId action) {
   std::vector<double>& use = inside_->use[fighter.at()];
   for (double& share : use) share *= kRarityKept;
   use[action.at()] += 1 - kRarityKept;
+}
+
+void Planner::note_habit(const FightState& state, FighterId fighter, ActionId action) {
+  const Inside& in = *inside_;
+  const FighterId other = in.opponent_of(state, fighter);
+  if (!other.valid()) return;
+  const auto root = [&](FighterId who) {
+    const MotionTables& tables = *in.tables[static_cast<std::size_t>(in.body_of[who.at()])];
+    return InFlight(tables, state.fighters[who.at()].launch).root_at(state.now).position();
+  };
+  const Kind last = in.library.action(state.fighters[fighter.at()].launch.action).kind;
+  const float apart = glm::distance(root(fighter), root(other));
+  inside_->habits[fighter.at()].note(situation_of(apart, last), action);
+}
+
+void Planner::set_condition(FighterId fighter, const Condition& condition) {
+  inside_->condition[fighter.at()] = condition;
+}
+
+double Planner::work_of(FighterId fighter, ActionId action) const {
+  return inside_->work_of(fighter, action);
 }
 
 Planner::MemoCounts Planner::memo_counts() const {

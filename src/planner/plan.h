@@ -8,6 +8,7 @@
 
 #include "fight/timeline.h"
 #include "physics/body.h"
+#include "planner/condition.h"
 #include "planner/style.h"
 
 namespace ringcraft {
@@ -85,6 +86,15 @@ class Planner {
 
   // Rarity: tells the planner what was committed.
   void note_launch(FighterId fighter, ActionId action);
+
+  // Learning: the same launch with the situation in which it is made, while the fighter's last
+  // action is still in the state.
+  void note_habit(const FightState& state, FighterId fighter, ActionId action);
+
+  // Fatigue and injuries as they are from now on.
+  void set_condition(FighterId fighter, const Condition& condition);
+  // Kinetic work of an action of that fighter's body, J; 0 where its style never tires.
+  double work_of(FighterId fighter, ActionId action) const;
 
   struct MemoCounts {
     std::uint64_t hits = 0, misses = 0;

@@ -29,6 +29,11 @@ Result<Style> read_style(const std::filesystem::path& path) {
   read("boredom_rate", style.boredom_rate);
   read("boredom_after_s", style.boredom_after_s);
   read("late_sight_s", style.late_sight_s);
+  read("learning", style.learning);
+  read("fatigue", style.fatigue);
+  read("injury", style.injury);
+  read("aim_error_deg", style.aim_error_deg);
+  read("speed_error", style.speed_error);
   style.candidates = value.value("candidates", style.candidates);
   if (value.value("leaf", "weighted") == "paper") style.leaf = LeafValue::paper;
   if (value.contains("strikes")) {

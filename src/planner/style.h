@@ -33,6 +33,11 @@ struct Style {
   double boredom_rate = 0.1;     // per second without contact beyond boredom_after_s
   double boredom_after_s = 4.0;
   double late_sight_s = 0.25;  // how young an attack cannot yet be answered
+  double learning = 0;         // 0..1: how far the opponent is taken to do what it was seen to do
+  double fatigue = 0;          // factor on what work and blows cost the fighter's reserve; 0: never
+  double injury = 0;           // factor on what blows on arms and legs cost them; 0: never
+  double aim_error_deg = 0;    // standard deviation of an attack's aim in execution
+  double speed_error = 0;      // standard deviation of an action's speed in execution, share
   LeafValue leaf = LeafValue::weighted;
   int candidates = 6;  // k, the same at every depth
   std::map<std::string, double>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "base/random.h"
 #include "physics/impact.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
@@ -29,6 +30,7 @@ constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
 constexpr Tick kForeseenTicks = 6;       // a contact so far from when it was foreseen is another
 constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
 constexpr float kFallingSpeed = 1.0f;    // m/s: slower, a falling body leans on another
+constexpr float kMostErrors = 2.5f;      // standard deviations of an error of execution
 constexpr float kMostPush = 0.012f;      // m a tick and fighter
 
 std::vector<BodyModel> bodies_of(const SceneFile& scene) {
@@ -124,14 +126,40 @@ FighterId Bout::nearest_opponent(FighterId id) const {
   return nearest;
 }
 
-void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated) {
+void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated,
+                 const Pace& pace) {
   fighter(id).launch = launch;
   launched_ = true;
-  stage_.begin(id, launch, std::move(simulated));
+  stage_.begin(id, launch, std::move(simulated), pace);
+}
+
+// What becomes of a planned launch: its blow goes aside, it is slower or faster, and slower still
+// where the fighter is tired. The launch ends when its clip does.
+Pace Bout::executed(FighterId id, Launch& launch) {
+  if (launch.start != state_.now) return {};  // goes on with what it does
+  const Style& style = scene_.fighters[id.at()].style;
+  const Action& action = library_.action(launch.action);
+  Random random(derived_seed(scene_.seed, "execution", static_cast<std::uint64_t>(launch.start)),
+                static_cast<std::uint64_t>(id.at()));
+  const auto most = [](float value) { return std::clamp(value, -kMostErrors, kMostErrors); };
+  const float aside = most(random.normal()) * radians(static_cast<float>(style.aim_error_deg));
+  const float faster = most(random.normal()) * static_cast<float>(style.speed_error);
+  if (action.attacks()) launch.aim += aside;
+  const Pace pace(action, (1 + faster) * standing_[id.at()].condition.pace());
+  launch.end += pace.length(action.length()) - action.length();
+  return pace;
+}
+
+// One tick of rest; the planner hears of it before its next decision.
+void Bout::tire(FighterId id) {
+  standing_[id.at()].condition.rest(static_cast<double>(kTickSeconds));
 }
 
 Plan Bout::decide(FighterId id) {
   fighter(id).opponent = nearest_opponent(id);
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    planner_->set_condition(FighterId(i), standing_[i].condition);
+  }
   const auto begin = Clock::now();
   Plan plan = planner_->plan(state_, id, last_contact_);
   record_.decision_ms.push_back(microseconds_since(begin) / 1000);
@@ -146,7 +174,12 @@ void Bout::commit(FighterId id, const Plan& plan) {
   note_expanded(state_, id);
   fighter(id).balance = 0;
   planner_->note_launch(id, plan.launch.action);
-  begin(id, plan.launch);
+  planner_->note_habit(state_, id, plan.launch.action);
+  Launch launch = plan.launch;
+  const Pace pace = executed(id, launch);
+  begin(id, launch, {}, pace);
+  standing_[id.at()].condition.launched(scene_.fighters[id.at()].style,
+                                        planner_->work_of(id, launch.action));
   Event event;
   event.tick = state_.now;
   event.type = EventType::decision;
@@ -200,7 +233,10 @@ void Bout::advance_one_tick() {
   ++state_.now;
   stage_.show(state_.now);
   if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
-  for (std::size_t i = 0; i < state_.fighters.size(); ++i) note_strikes(FighterId(i));
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    tire(FighterId(i));
+    note_strikes(FighterId(i));
+  }
   for (const Touch& touch : touches()) commit_touch(touch);
   commit_falls();
   stage_.keep_out_and_record();
@@ -211,12 +247,14 @@ void Bout::advance_one_tick() {
 void Bout::note_strikes(FighterId id) {
   Launch& launch = fighter(id).launch;
   const Action& action = action_of(id);
-  const Tick age = state_.now - launch.start;
+  const Tick age = stage_.clip_age(id, state_.now);
+  const Tick before = stage_.clip_age(id, state_.now - 1);
   for (std::size_t i = 0; i < action.strikes.size(); ++i) {
     const Strike& strike = action.strikes[i];
     const auto bit = static_cast<std::uint8_t>(1u << i);
-    const bool begins = age == strike.active_begin;
-    const bool missed = age == strike.active_end && !(launch.spent & bit);
+    const auto reached = [&](Tick tick) { return before < tick && age >= tick; };
+    const bool begins = reached(strike.active_begin);
+    const bool missed = reached(strike.active_end) && !(launch.spent & bit);
     if (!begins && !missed) continue;
     Event event;
     event.tick = state_.now;
@@ -225,6 +263,7 @@ void Bout::note_strikes(FighterId id) {
     event.whom = fighter(id).opponent;
     event.action = action.name;
     event.strike = strike.kind;
+    event.fatigue = static_cast<float>(standing_[id.at()].condition.fatigue());
     record_.timeline.events.push_back(std::move(event));
     if (missed) launch.spent |= bit;
   }
@@ -251,7 +290,7 @@ std::vector<Bout::Touch> Bout::touches() const {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     const Launch& launch = state_.fighters[i].launch;
     const Action& action = library_.action(launch.action);
-    const Tick age = state_.now - launch.start;
+    const Tick age = stage_.clip_age(FighterId(i), state_.now);
     for (std::size_t s = 0; s < action.strikes.size(); ++s) {
       const Strike& strike = action.strikes[s];
       const bool active = age >= strike.active_begin && age < strike.active_end;
@@ -313,7 +352,8 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   input.continued = continued;
   input.blow = blow;
   input.contacts = library_.action(fighter(target).launch.action)
-                       .clip.contacts_at(state_.now - fighter(target).launch.start);
+                       .clip.contacts_at(stage_.clip_age(target, state_.now));
+  input.tone = standing_[target.at()].condition.tone();
   const auto begin = Clock::now();
   ImpactOutcome outcome = impulse_step(stage_.body(target), input);
   record_.impulse_step_us.push_back(microseconds_since(begin));
@@ -324,6 +364,8 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   // 2. What it costs. Nobody stands without health.
   const std::int32_t damage = damage_of(input.blow, outcome);
   fighter(target).health = std::max(0, fighter(target).health - damage);
+  standing_[target.at()].condition.struck(scene_.fighters[target.at()].style, blow.part,
+                                          damage / 1000.0);
   if (fighter(target).health == 0) {
     outcome.response = ResponseKind::knockdown;
     outcome.knockout = true;
@@ -348,6 +390,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   event.steps = cuts ? outcome.steps : 0;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
+  event.fatigue = static_cast<float>(standing_[attacker.at()].condition.fatigue());
   note_foreseen(event);
   record_.timeline.events.push_back(event);
   if (!cuts || fighter(target).down()) return;
@@ -438,6 +481,7 @@ FightRecord Bout::record() {
   record_.timeline.tracks = stage_.take_tracks();
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     record_.bodies.push_back(stage_.body(FighterId(i)));
+    record_.condition.push_back(standing_[i].condition);
   }
   const Planner::MemoCounts memo = planner_->memo_counts();
   record_.counts.memo_hits = memo.hits;

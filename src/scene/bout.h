@@ -45,6 +45,7 @@ class Bout {
     std::vector<Event> foreseen;  // what its strikes in flight will do, by the tree
     bool out = false;
     std::uint32_t fell_upon = 0;  // bit i: this fall has hit fighter i
+    Condition condition;          // fatigue and injuries
   };
 
   FighterState& fighter(FighterId id) { return state_.fighters[id.at()]; }
@@ -52,7 +53,10 @@ class Bout {
   Vec3 ground_position(FighterId id) const;
   bool enemies(FighterId a, FighterId b) const;
   FighterId nearest_opponent(FighterId id) const;
-  void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {});
+  void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
+             const Pace& pace = {});
+  Pace executed(FighterId id, Launch& launch);
+  void tire(FighterId id);
   void note_strikes(FighterId id);
   std::vector<Touch> touches() const;
   std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;

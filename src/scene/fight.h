@@ -32,6 +32,7 @@ struct FightRecord {
   Timeline timeline;
   std::vector<BodyModel> bodies;
   FightCounts counts;
+  std::vector<Condition> condition;                  // of every fighter at the end
   std::vector<double> decision_ms, impulse_step_us;  // what the clock said
   bool interrupted = false;
 };

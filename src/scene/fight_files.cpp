@@ -28,8 +28,11 @@ RunFacts facts_of(const SceneFile& scene, const FightRecord& record) {
   RunFacts facts;
   facts.scene = scene.name;
   facts.seed = scene.seed;
-  for (const SceneFighter& fighter : scene.fighters) {
-    facts.contestants.push_back({fighter.style.name, fighter.style.horizon_s});
+  for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
+    const Style& style = scene.fighters[i].style;
+    const Condition condition = i < record.condition.size() ? record.condition[i] : Condition();
+    facts.contestants.push_back(
+        {style.name, style.horizon_s, condition.fatigue(), condition.injuries()});
   }
   facts.memo_hits = record.counts.memo_hits;
   facts.memo_misses = record.counts.memo_misses;

@@ -1,6 +1,7 @@
 #include "scene/stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/random.h"
@@ -36,23 +37,37 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
     : library_(library), repetitions_(repetitions) {
   for (BodyModel& body : bodies) {
     Playback playback(body.skeleton);
-    actors_.push_back({std::move(body), std::move(playback), {}, {}, {}, 0, false, {}, {}, {}, {}});
+    Actor actor{std::move(body), std::move(playback), {}, {}, {}, {}, 0, false, {}, {}, {}, {}};
+    actors_.push_back(std::move(actor));
   }
 }
 
 Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
-  return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action),
-                            pose_at(library_, actor.launch, tick, actor.body.scale),
-                            tick - actor.launch.start, tick);
+  const Tick start = actor.launch.start;
+  const float age = actor.pace.age(tick - start);
+  const auto whole = static_cast<Tick>(std::floor(age));
+  const float share = age - static_cast<float>(whole);
+  Pose pose = pose_at(library_, actor.launch, start + whole, actor.body.scale);
+  if (share > 0) {
+    pose = mix(pose, pose_at(library_, actor.launch, start + whole + 1, actor.body.scale), share);
+  }
+  return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
+                            tick);
+}
+
+Tick Stage::clip_age(const Actor& actor, Tick tick) {
+  return static_cast<Tick>(std::lround(actor.pace.age(tick - actor.launch.start)));
 }
 
 void Stage::begin(FighterId fighter, const Launch& launch) {
   begin(fighter, launch, {});
 }
 
-void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
+void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
+                  const Pace& pace) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
+  actor.pace = pace;
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {
     actor.variation = Variation(derived_seed(static_cast<std::uint64_t>(launch.start), "launch",
@@ -96,7 +111,7 @@ void Stage::show(Tick tick) {
         actor.playback.stitch(pose, clip_pose(actor, tick + 1));
       }
       actor.was_simulated = false;
-      actor.playback.next(pose, clip.contacts_at(tick - actor.launch.start));
+      actor.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
     }
     actor.unhindered = actor.playback.shown();
     actor.swept.before = actor.swept.after;
@@ -146,7 +161,7 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
       poses.push_back(actor.simulated[at]);
     } else {
       const Pose& pose =
-          ahead.next(clip_pose(actor, next), clip.contacts_at(next - actor.launch.start));
+          ahead.next(clip_pose(actor, next), clip.contacts_at(clip_age(actor, next)));
       poses.push_back(with_offsets(actor.body, pose, actor.kept_out));
     }
   }

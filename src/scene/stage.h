@@ -8,6 +8,7 @@
 #include "motion/variation.h"
 #include "physics/contact.h"
 #include "scene/keep_out.h"
+#include "scene/pace.h"
 
 namespace ringcraft {
 
@@ -26,7 +27,8 @@ class Stage {
   void begin(FighterId fighter, const Launch& launch);
 
   // The same for a response: `simulated` poses are shown first, one a tick, then the launch's clip.
-  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated);
+  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
+             const Pace& pace = {});
 
   // Moves a fighter's launch on the ground; the feet follow by steps of their own.
   void shift(FighterId fighter, Vec3 offset);
@@ -37,6 +39,10 @@ class Stage {
   // After the contacts of the tick were answered: keeps limbs out of the other bodies, and records.
   void keep_out_and_record();
 
+  // Age of the clip that is shown at `tick`, nearest tick.
+  Tick clip_age(FighterId fighter, Tick tick) const {
+    return clip_age(actors_[fighter.at()], tick);
+  }
   const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
   const Pose& shown(FighterId fighter) const { return actors_[fighter.at()].playback.shown(); }
   const Pose& shown_before(FighterId fighter) const;
@@ -56,6 +62,7 @@ class Stage {
     BodyModel body;
     Playback playback;
     Launch launch;
+    Pace pace;                    // of this launch
     Variation variation;          // of this launch
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
@@ -68,6 +75,7 @@ class Stage {
 
   static void amend(Actor& actor, const LimbOffsets& offsets);
   Pose clip_pose(const Actor& actor, Tick tick) const;
+  static Tick clip_age(const Actor& actor, Tick tick);
 
   const MotionLibrary& library_;
   Repetitions repetitions_;

@@ -18,7 +18,7 @@ std::filesystem::path written(const std::string& name, const std::string& text) 
 
 TEST(StyleTest, EveryPublishedStyleReads) {
   for (const char* name : {"balanced", "aggressive", "careful", "outboxer", "infighter", "kicker",
-                           "counter_puncher"}) {
+                           "counter_puncher", "student", "repeater"}) {
     const auto style = read_style(assets_folder() / "styles" / (std::string(name) + ".toml"));
     ASSERT_TRUE(style) << to_string(style.error());
     EXPECT_EQ(style->name, name);
@@ -30,6 +30,8 @@ TEST(StyleTest, EveryPublishedStyleReads) {
 TEST(StyleTest, FieldsAreRead) {
   const auto style = read_style(written("own_style.toml",
                                         "leaf = \"paper\"\nhorizon_s = 1\ncandidates = 9\n"
+                                        "learning = 0.5\nfatigue = 2\ninjury = 3\n"
+                                        "aim_error_deg = 4\nspeed_error = 0.05\n"
                                         "[strikes]\nhook = 2\n[liked]\njab = -0.5\n"));
   ASSERT_TRUE(style) << to_string(style.error());
   EXPECT_EQ(style->name, "own_style");
@@ -39,6 +41,11 @@ TEST(StyleTest, FieldsAreRead) {
   EXPECT_EQ(style->strikes.at("hook"), 2);
   EXPECT_EQ(style->liked.at("jab"), -0.5);
   EXPECT_EQ(style->caution, Style().caution);
+  EXPECT_EQ(style->learning, 0.5);
+  EXPECT_EQ(style->fatigue, 2);
+  EXPECT_EQ(style->injury, 3);
+  EXPECT_EQ(style->aim_error_deg, 4);
+  EXPECT_EQ(style->speed_error, 0.05);
 }
 
 TEST(StyleTest, UnknownKeyIsAnErrorThatNamesTheNearest) {

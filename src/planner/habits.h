@@ -1,0 +1,47 @@
+#pragma once
+// Habits: what a fighter was seen to launch in which situation, and what that says of its next
+// launch (the paper: "after the enemy repeats the same attack a few times, a human will learn the
+// pre-action of that attack").
+
+#include <array>
+#include <vector>
+
+#include "base/index.h"
+#include "motion/action.h"
+
+namespace ringcraft {
+
+// How far apart the two stand and what the fighter did last.
+struct Situation {
+  std::uint8_t band = 0;   // of the distance
+  std::uint8_t after = 0;  // kind of the fighter's last action
+};
+
+// `distance` of the roots, m.
+Situation situation_of(float distance, Kind last);
+
+// Counts of one fighter. Constant inside a search.
+class Habits {
+ public:
+  // Sighted launches of one situation.
+  struct Seen {
+    ActionId action;
+    int count = 0;
+  };
+
+  void note(Situation situation, ActionId action);
+
+  // What was launched in the situation, the most frequent first (at equal counts the lower index).
+  const std::vector<Seen>& seen(Situation situation) const;
+  int total(Situation situation) const;
+
+  // How much the counts of a situation are believed, 0 (never met) .. 1: n / (n + 3).
+  static double belief(int total);
+
+ private:
+  static constexpr std::size_t kBands = 3, kAfter = 7;
+  static std::size_t index_of(Situation situation);
+  std::array<std::vector<Seen>, kBands * kAfter> seen_;
+};
+
+}  // namespace ringcraft

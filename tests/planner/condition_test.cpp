@@ -1,0 +1,203 @@
+// Fatigue, injuries, and what is learned of an opponent.
+
+#include "planner/condition.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "planner/duel_fixture.h"
+#include "planner/habits.h"
+#include "planner/impact_store.h"
+
+namespace ringcraft {
+namespace {
+
+Style wearing(double fatigue, double injury) {
+  Style style;
+  style.fatigue = fatigue;
+  style.injury = injury;
+  return style;
+}
+
+class ConditionTest : public DuelFixture {};
+
+TEST_F(ConditionTest, WorkTiresRestRestoresAndNothingHappensWithoutAFactor) {
+  Condition condition;
+  for (int i = 0; i < 20; ++i) condition.launched(wearing(1, 0), 150);
+  const double tired = condition.fatigue();
+  EXPECT_GT(tired, 0.3);
+  EXPECT_LT(condition.pace(), 0.96f);
+  EXPECT_LT(condition.tone(), 0.9f);
+  condition.rest(5);
+  EXPECT_LT(condition.fatigue(), tired);
+  condition.rest(1000);
+  EXPECT_EQ(condition.fatigue(), 0);
+  EXPECT_EQ(condition.pace(), 1);
+  EXPECT_EQ(condition.tone(), 1);
+  condition.launched(wearing(0, 1), 1e6);
+  EXPECT_EQ(condition.fatigue(), 0);
+}
+
+TEST_F(ConditionTest, PaceAndToneStayInsideTheirLimits) {
+  Condition condition;
+  condition.launched(wearing(100, 0), 1e9);
+  EXPECT_EQ(condition.fatigue(), 1);
+  EXPECT_NEAR(condition.pace(), 0.85f, 1e-6f);
+  EXPECT_GT(condition.tone(), kLeastStandingTone);  // a tired fighter stands
+}
+
+TEST_F(ConditionTest, BlowsToTheBodyTireMoreThanOthersAndLimbsAreHurt) {
+  const Style style = wearing(1, 1);
+  Condition body, leg;
+  body.struck(style, Part::abdomen, 10);
+  leg.struck(style, Part::left_thigh, 10);
+  EXPECT_GT(body.fatigue(), leg.fatigue());
+  EXPECT_EQ(body.injuries(), (std::array<double, kLimbs>{}));
+  EXPECT_NEAR(leg.injury(2), 0.5, 1e-9);
+  EXPECT_EQ(leg.injury(3), 0);
+  leg.struck(style, Part::left_shin, 100);
+  EXPECT_EQ(leg.injury(2), 1);
+}
+
+TEST_F(ConditionTest, AFasterMotionIsMoreWorkAndAHeldPoseIsNone) {
+  const ActionTable& cross = tables().at(library().find("cross"));
+  const double work = kinetic_work(tables().body(), cross.pose);
+  EXPECT_GT(work, 20);
+  EXPECT_LT(work, 1000);
+  EXPECT_EQ(kinetic_work(tables().body(), std::vector<Pose>(30, cross.pose.front())), 0);
+  std::vector<Pose> twice;  // every second frame: twice the speed, four times the energy
+  for (std::size_t i = 0; i < cross.pose.size(); i += 2) twice.push_back(cross.pose[i]);
+  EXPECT_GT(kinetic_work(tables().body(), twice), 3 * work);
+}
+
+TEST_F(ConditionTest, AHurtArmIsSparedAndATiredFighterSavesWork) {
+  const Action& cross = library().action(library().find("cross"));
+  const Action& step = library().action(library().find("step_back"));
+  const Style style = wearing(1, 1);
+  const auto limb = limb_of(*part_of(cross.strikes.front().joint));
+  ASSERT_TRUE(limb);
+  Condition hurt, other;
+  hurt.struck(style, *limb == 0 ? Part::left_forearm : Part::right_forearm, 10);
+  other.struck(style, *limb == 0 ? Part::right_forearm : Part::left_forearm, 10);
+  Style unhurt = style;
+  unhurt.fatigue = 0;
+  EXPECT_GT(condition_cost(hurt, unhurt, cross, 100), 2);
+  EXPECT_EQ(condition_cost(other, unhurt, cross, 100), 0);
+  EXPECT_EQ(condition_cost(hurt, unhurt, step, 100), 0);
+  EXPECT_EQ(condition_cost(hurt, wearing(0, 0), cross, 100), 0);
+  Condition tired;
+  tired.launched(style, 4000);
+  EXPECT_GT(condition_cost(tired, style, cross, 200), condition_cost(tired, style, step, 50) + 1);
+}
+
+// What is planned changes with it: a fighter with a ruined arm throws it less.
+TEST_F(ConditionTest, APlanSparesTheHurtArm) {
+  Style style = wearing(0, 1);
+  style.horizon_s = 0.6;
+  style.temperature = 0;
+  const auto store = std::make_shared<ImpactStore>();
+  const auto blows_by_limb = [&](const Condition& condition) {
+    PlanSettings settings;
+    settings.node_limit = 300;
+    Planner planner(library(), contenders(2, style), settings, 5, store);
+    planner.set_condition(FighterId(0), condition);
+    std::array<int, kLimbs> count{};
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      const Plan plan = planner.plan(random_state(seed), FighterId(0), 0);
+      const Action& action = library().action(plan.launch.action);
+      if (action.strikes.empty()) continue;
+      ++count.at(*limb_of(*part_of(action.strikes.front().joint)));
+    }
+    return count;
+  };
+  const auto sound = blows_by_limb({});
+  const auto busiest =
+      static_cast<std::size_t>(std::max_element(sound.begin(), sound.end()) - sound.begin());
+  constexpr Part kParts[] = {Part::left_forearm, Part::right_forearm, Part::left_shin,
+                             Part::right_shin};
+  Condition ruined;
+  ruined.struck(style, kParts[busiest], 100);
+  EXPECT_GT(sound[busiest], 0);
+  EXPECT_LT(blows_by_limb(ruined)[busiest], sound[busiest]);
+}
+
+TEST(HabitsTest, CountsStandByFrequencyAndSituation) {
+  Habits habits;
+  const Situation near = situation_of(0.9f, Kind::idle), far = situation_of(2.0f, Kind::idle);
+  for (const int action : {3, 5, 5, 2}) habits.note(near, ActionId(action));
+  ASSERT_EQ(habits.seen(near).size(), 3u);
+  EXPECT_EQ(habits.seen(near)[0].action, ActionId(5));
+  EXPECT_EQ(habits.seen(near)[1].action, ActionId(2));  // equal counts: the lower index
+  EXPECT_EQ(habits.total(near), 4);
+  EXPECT_EQ(habits.total(far), 0);
+  EXPECT_EQ(habits.total(situation_of(0.9f, Kind::attack)), 0);
+  EXPECT_EQ(Habits::belief(0), 0);
+  EXPECT_LT(Habits::belief(3), Habits::belief(30));
+}
+
+// Many sightings of one attack: the tree expects it, and nothing else.
+TEST_F(ConditionTest, TheTreeExpectsWhatWasSeen) {
+  prune_nothing();
+  const FightState state = facing(0.95f, 0);
+  DuelNode node = Duel::root(setup_, state);
+  node.side[0].flight.launch.end = 60;  // the opponent acts
+  Duel game(setup_, 120);
+  std::vector<DuelMove> usual, expected;
+  game.moves(node, usual);
+  ASSERT_GT(usual.size(), 3u);
+  const ActionId worst = usual.back().action;
+
+  Habits habits;
+  setup_.habits = &habits;
+  setup_.learning = 1;
+  game.moves(node, expected);
+  EXPECT_EQ(expected.size(), usual.size());  // nothing was seen
+  for (int i = 0; i < 100; ++i) habits.note(situation_of(0.95f, Kind::idle), worst);
+  game.moves(node, expected);
+  ASSERT_EQ(expected.size(), 1u);
+  EXPECT_EQ(expected.front().action, worst);
+  setup_.learning = 0.5;
+  game.moves(node, expected);
+  EXPECT_GT(expected.size(), 2u);
+  EXPECT_EQ(expected.front().action, worst);
+  // Of its own moves the planner knows all.
+  node.side[0].flight.launch.end = 0;
+  node.side[1].flight.launch.end = 60;
+  game.moves(node, expected);
+  EXPECT_EQ(expected.size(), usual.size());
+}
+
+TEST_F(ConditionTest, OnlyWhoLearnsPlansOtherwise) {
+  Style style;
+  style.horizon_s = 1.2;
+  style.temperature = 0;
+  Style student = style;
+  student.learning = 1;
+  const std::vector<Contender> both = {{make_body({}), student}, {make_body({}), style}};
+  PlanSettings settings;
+  settings.node_limit = 300;
+  const auto store = std::make_shared<ImpactStore>();
+  Planner planner(library(), both, settings, 5, store), fresh(library(), both, settings, 5, store);
+  for (int i = 0; i < 40; ++i) {  // both were seen to step back, over and over, wherever they stood
+    for (const float distance : {0.9f, 1.3f, 2.0f}) {
+      const FightState state = facing(distance);
+      for (const std::size_t who : {0u, 1u}) {
+        planner.note_habit(state, FighterId(who), library().find("step_back"));
+      }
+    }
+  }
+  int student_changed = 0, other_changed = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const FightState state = random_state(seed);
+    const auto score = [&](Planner& of, std::size_t who) {
+      return of.plan(state, FighterId(who), 0).record.lines.front().score;
+    };
+    student_changed += score(planner, 0) != score(fresh, 0);
+    other_changed += score(planner, 1) != score(fresh, 1);
+  }
+  EXPECT_GT(student_changed, 0);
+  EXPECT_EQ(other_changed, 0);
+}
+
+}  // namespace
+}  // namespace ringcraft
