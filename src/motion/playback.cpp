@@ -25,6 +25,7 @@ constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide 
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
+constexpr float kLying = 0.6f;            // of the leg's length: hips lower than that do not stand
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
@@ -67,35 +68,48 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
   return {value, (next - value) / kTickSeconds, seconds};
 }
 
-// The humerus about the middle of its range (forward, out and down): its swing across the arm, and
-// its turn about the arm in x. What lies between two turns inside the shoulder's range is inside it
-// in these numbers, which is not so along the shortest turn.
-Quat humerus_middle() {
-  return rotation_between(kLeft, Vec3{.55f, -.35f, .75f});
+// A ball joint about the middle of its range: its swing across the limb, and its turn about it.
+// What lies between two turns inside the joint's range is inside it in these numbers, which is not
+// so along the shortest turn.
+struct BallJoint {
+  Quat middle;
+  Vec3 along;  // the limb, at the joint's middle: a unit axis
+};
+// The humerus: forward, out and down. The thigh: 45 degrees of flexion and 7 of abduction.
+BallJoint ball_joint(const Limb& limb) {
+  if (limb.root == leg(Side::left).root || limb.root == leg(Side::right).root) {
+    return {glm::angleAxis(radians(7), kForward) * glm::angleAxis(radians(-45), kLeft), kUp};
+  }
+  return {rotation_between(kLeft, Vec3{.55f, -.35f, .75f}), kLeft};
 }
 Quat as_left(Side side, Quat q) {
   return side == Side::left ? q : Quat(q.w, q.x, -q.y, -q.z);
 }
-Vec3 humerus_turns(Side side, Quat rotation) {
-  const Quat q = glm::conjugate(humerus_middle()) * as_left(side, rotation);
-  const float turn = wrapped_angle(2 * std::atan2(q.x, q.w));
-  const Vec3 swing = rotation_vector(q * glm::conjugate(glm::angleAxis(turn, kLeft)));
-  return {turn, swing.y, swing.z};
+// The turn along the limb's axis, the swing across it.
+Vec3 ball_turns(const BallJoint& joint, Side side, Quat rotation) {
+  const Quat q = glm::conjugate(joint.middle) * as_left(side, rotation);
+  const float turn = wrapped_angle(2 * std::atan2(glm::dot({q.x, q.y, q.z}, joint.along), q.w));
+  const Vec3 swing = rotation_vector(q * glm::conjugate(glm::angleAxis(turn, joint.along)));
+  return swing + joint.along * (turn - glm::dot(swing, joint.along));
 }
-Quat humerus(Side side, Vec3 turns) {
-  const Quat swing = from_rotation_vector({0, turns.y, turns.z});
-  return as_left(side, glm::normalize(humerus_middle() * swing * glm::angleAxis(turns.x, kLeft)));
+Quat ball_rotation(const BallJoint& joint, Side side, Vec3 turns) {
+  const float turn = glm::dot(turns, joint.along);
+  const Quat swing = from_rotation_vector(turns - joint.along * turn);
+  return as_left(side, glm::normalize(joint.middle * swing * glm::angleAxis(turn, joint.along)));
 }
 
-// As rotation_decay, of the humerus.
-Decay shoulder_decay(Side side, const Pose& before, const Pose& shown, const Pose& now,
-                     const Pose& after, float seconds) {
-  const std::size_t j = index(arm(side).root);
-  const auto turns = [&](const Pose& pose) { return humerus_turns(side, pose.rotation[j]); };
-  constexpr float kFastest =
-      12 * kTickSeconds;  // rad a tick: near a swing of half a turn they flip
+// As rotation_decay, of a limb's root.
+Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
+                 const Pose& now, const Pose& after, float seconds) {
+  const std::size_t j = index(limb.root);
+  const BallJoint joint = ball_joint(limb);
+  const auto turns = [&](const Pose& pose) { return ball_turns(joint, side, pose.rotation[j]); };
+  constexpr float kFastest = 20 * kTickSeconds;  // rad a tick: no joint turns faster
   const auto moved = [&](const Pose& a, const Pose& b) {
-    return glm::clamp(turns(b) - turns(a), Vec3(-kFastest), Vec3(kFastest));
+    const Vec3 change = turns(b) - turns(a);
+    const float turn = glm::dot(change, joint.along);  // about the limb, it may pass half a turn
+    return glm::clamp(change + joint.along * (wrapped_angle(turn) - turn), Vec3(-kFastest),
+                      Vec3(kFastest));
   };
   const Vec3 going = moved(before, shown), clip_going = moved(now, after);
   return {turns(shown) + going - turns(now), (going - clip_going) / kTickSeconds, seconds};
@@ -145,7 +159,8 @@ Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
 // change.
 float Playback::blend_of(const Pose& now, const Pose& after) const {
   if (!simulated_) return settings_.blend_seconds;
-  constexpr float kMostAcceleration = 25;  // m/s2: of a limb that goes where it should be
+  // m/s2: of a limb that goes where it should be; a body that lies has the time
+  const float most_acceleration = lies() ? 14.0f : 25.0f;
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
   const WorldPose clip = world_pose(skeleton_, now), clip_next = world_pose(skeleton_, after);
   float seconds = settings_.blend_seconds;
@@ -154,10 +169,28 @@ float Playback::blend_of(const Pose& now, const Pose& after) const {
     const float far = glm::distance(shown.position[j] + moved, clip.position[j]);
     const float fast =
         glm::distance(moved, clip_next.position[j] - clip.position[j]) / kTickSeconds;
-    seconds = std::max({seconds, std::sqrt(5.8f * far / kMostAcceleration),
-                        3.9f * fast / (2 * kMostAcceleration)});
+    seconds = std::max({seconds, std::sqrt(5.8f * far / most_acceleration),
+                        3.9f * fast / (2 * most_acceleration)});
+  }
+  // Limbs that go by their joints swing: what they carry goes the length of the arc.
+  for (const Side side : kSides) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      if (limb.root == leg(side).root && !lies()) continue;
+      const std::size_t j = index(limb.root);
+      const BallJoint joint = ball_joint(limb);
+      const Vec3 turns =
+          ball_turns(joint, side, shown_.rotation[j]) - ball_turns(joint, side, now.rotation[j]);
+      const Vec3 swing = turns - joint.along * glm::dot(turns, joint.along);
+      const float arc = glm::length(swing) * reach_share(skeleton_, limb, clip) *
+                        (skeleton_.bone(limb.middle) + skeleton_.bone(limb.end));
+      seconds = std::max(seconds, std::sqrt(5.8f * arc / most_acceleration));
+    }
   }
   return std::min(seconds, settings_.longest_blend);
+}
+
+bool Playback::lies() const {
+  return shown_.hips.y < kLying * skeleton_.leg_length();
 }
 
 void Playback::stitch(const Pose& now, const Pose& after) {
@@ -183,10 +216,13 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     arm_reach_[static_cast<std::size_t>(side)] =
         std::min(reach_share(skeleton_, arm(side), shown), 0.995f);
     const auto i = static_cast<std::size_t>(side);
-    hands_[i] = shoulders_[i] = {};
+    hands_[i] = shoulders_[i] = hip_joints_[i] = {};
+    if (feet_[i].by_joints) {
+      hip_joints_[i] = root_decay(side, leg(side), before_, shown_, now, after, seconds);
+    }
     // After a simulation arms go by their joints: led by the hand, their elbows would turn over.
     if (simulated_) {
-      shoulders_[i] = shoulder_decay(side, before_, shown_, now, after, seconds);
+      shoulders_[i] = root_decay(side, arm(side), before_, shown_, now, after, seconds);
       continue;
     }
     hands_[i] = {shown.position[hand] + hand_moved - world_now.position[hand],
@@ -204,6 +240,10 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   foot.clip_ball = now.position[ball] - clip_moved;
   foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
   foot.reach_left = 1;
+  foot.clip_turn = now.rotation[end];
+  // Led along a line, a foot far from the clip's passes its own hip and the knee turns over.
+  foot.by_joints = simulated_;
+  foot.lift = {};
   if (foot.mode == Mode::held) return;
   const Vec3 moved = foot.led - foot.led_before;
   const Vec3 offset = foot.led + moved - now.position[ball];
@@ -263,7 +303,7 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  turn_shoulders(clip_pose, pose);
+  turn_roots(clip_pose, pose);
   place_feet(clip_pose, contacts, pose);
   place_hands(clip_pose, pose);
   hips_.step(kTickSeconds);
@@ -276,12 +316,13 @@ const Pose& Playback::next_simulated(const Pose& pose) {
     foot.mode = Mode::swing;
     foot.offset = {};
     foot.turn = {};
+    foot.by_joints = false;
     foot.load = 0;
   }
   hips_ = {};
   sink_ = {};
   hands_ = {};
-  shoulders_ = {};
+  shoulders_ = hip_joints_ = {};
   rotation_.fill({});
   show(pose);
   simulated_ = true;
@@ -377,8 +418,29 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   }
 }
 
+// A foot that went by its leg's joints has a place to go to from this tick on.
+void Playback::lead(Side side, Quat clip_turn) {
+  Foot& foot = feet_[static_cast<std::size_t>(side)];
+  const std::size_t end = index(leg(side).end);
+  const Quat clip_spin = clip_turn * glm::inverse(foot.clip_turn);
+  foot.by_joints = false;
+  foot.turn = rotation_decay(world_pose(skeleton_, before_).rotation[end],
+                             world_pose(skeleton_, shown_).rotation[end], clip_turn,
+                             clip_spin * clip_turn, blend_seconds_);
+}
+
+// What goes by joints is kept over the floor without a corner in its way: what that lifts it at
+// either end of the blend is taken off there, so that it starts and ends where it should.
+// Heights over where it would lie, m; `begun` 1 at the seam .. 0.
+float Playback::Lift::of(float height, float clip_height, float begun) {
+  constexpr float kSoft = .05f;  // m
+  const auto lift = [](float over) { return soft_positive(-over, kSoft); };
+  if (at_first < 0) at_first = lift(height);
+  return lift(height) - at_first * begun - lift(clip_height) * (1 - begun);
+}
+
 // Where the ball of the foot goes in this tick.
-Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
+Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
   if (started_) {
     change_mode(side, planted, clip_ball, floor);
@@ -391,7 +453,12 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, float floor) {
   Vec3 ball = foot.offset.value() + kUp * (foot.rise * arc * arc);
   switch (foot.mode) {
     case Mode::swing:
-      ball += clip_ball;
+      if (foot.by_joints) {
+        ball = blended_ball + kUp * foot.lift.of(blended_ball.y - floor, clip_ball.y - floor,
+                                                 smooth(foot.reach_left));
+      } else {
+        ball += clip_ball;
+      }
       break;
     case Mode::held:
       ball += foot.place + kUp * floor;
@@ -426,11 +493,19 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const auto i = static_cast<std::size_t>(side);
     Foot& foot = feet_[i];
     const std::size_t ball = index(toes(side)), end = index(leg(side).end);
-    foot_rotation[i] =
-        glm::normalize(from_rotation_vector(foot.turn.value()) * clip_world.rotation[end]);
-    foot.turn.step(kTickSeconds);
+    const auto led_rotation = [&] {
+      return glm::normalize(from_rotation_vector(foot.turn.value()) * clip_world.rotation[end]);
+    };
+    foot_rotation[i] = foot.by_joints ? world.rotation[end] : led_rotation();
     const float floor = ball_floor(skeleton_, foot_rotation[i]);
-    const Vec3 wanted = ball_of(side, contacts.of(side), clip_world.position[ball], floor);
+    const Vec3 wanted =
+        ball_of(side, contacts.of(side), clip_world.position[ball], world.position[ball], floor);
+    if (foot.by_joints && foot.mode != Mode::swing) {
+      lead(side, clip_world.rotation[end]);
+      foot_rotation[i] = led_rotation();
+    }
+    foot.clip_turn = clip_world.rotation[end];
+    foot.turn.step(kTickSeconds);
     height[i] = wanted.y;
     ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
     const Vec3 hip = world.position[index(leg(side).root)];
@@ -459,13 +534,18 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
   }
 }
 
-void Playback::turn_shoulders(const Pose& clip_pose, Pose& pose) {
+void Playback::turn_roots(const Pose& clip_pose, Pose& pose) {
   for (const Side side : kSides) {
-    Decay& offset = shoulders_[static_cast<std::size_t>(side)];
-    if (offset.done()) continue;
-    const std::size_t j = index(arm(side).root);
-    pose.rotation[j] = humerus(side, humerus_turns(side, clip_pose.rotation[j]) + offset.value());
-    offset.step(kTickSeconds);
+    const auto i = static_cast<std::size_t>(side);
+    for (Decay* offset : {&shoulders_[i], &hip_joints_[i]}) {
+      if (offset->done()) continue;
+      const Limb limb = offset == &shoulders_[i] ? arm(side) : leg(side);
+      const BallJoint joint = ball_joint(limb);
+      const std::size_t j = index(limb.root);
+      const Vec3 turns = ball_turns(joint, side, clip_pose.rotation[j]) + offset->value();
+      pose.rotation[j] = ball_rotation(joint, side, turns);
+      offset->step(kTickSeconds);
+    }
   }
 }
 

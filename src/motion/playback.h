@@ -69,17 +69,25 @@ class Playback {
 
  private:
   enum class Mode : std::uint8_t { swing, step, held };
+  // What keeps something over the floor.
+  struct Lift {
+    float at_first = -1;  // m: what that took at the seam; below 0: not known yet
+    float of(float height, float clip_height, float begun);
+  };
   struct Foot {
     Mode mode = Mode::swing;
-    Vec3 place{};    // of the ball of the foot while held, on the ground plane
-    Decay offset;    // of the ball to where it is going
-    Decay turn;      // of the foot's world rotation to the clip's
-    float rise = 0;  // m: height of an arc on top, so that no foot is moved along the floor
+    Vec3 place{};            // of the ball of the foot while held, on the ground plane
+    Decay offset;            // of the ball to where it is going
+    Decay turn;              // of the foot's world rotation to the clip's
+    bool by_joints = false;  // swings as the leg's joints take it
+    float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
     Vec3 ball{}, ball_before{};  // shown
     Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
+    Lift lift;                   // of one that goes by joints
     Vec3 clip_ball{};            // the clip's, one tick ago
+    Quat clip_turn;              // the same of the foot's world rotation
     float reach = 0;             // at the seam, as a share of the leg's length
     float reach_left = 0;        // 1 at the seam .. 0: what of that still counts
   };
@@ -91,6 +99,7 @@ class Playback {
 
   // How long the difference to a clip takes to fall to nothing.
   float blend_of(const Pose& now, const Pose& after) const;
+  bool lies() const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   static float clearing_rise(Decay path, float seconds);
   void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);
@@ -98,9 +107,10 @@ class Playback {
   void stand(Foot& foot, float floor) const;
   bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
-  Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, float floor);
+  Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
+  void lead(Side side, Quat clip_turn);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
-  void turn_shoulders(const Pose& clip_pose, Pose& pose);
+  void turn_roots(const Pose& clip_pose, Pose& pose);
   void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
 
@@ -116,6 +126,7 @@ class Playback {
   Sink sink_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
   std::array<Decay, 2> shoulders_;        // of arms that go by their joints instead
+  std::array<Decay, 2> hip_joints_;       // of legs that do
   std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   std::array<Foot, 2> feet_;
   float since_step_ = 1;  // s: since a foot took a step of its own

@@ -13,15 +13,16 @@ namespace {
 constexpr float kReflex = .12f;    // s: no reflex is faster; until then the struck body gives
 constexpr float kFirm = .30f;      // s: full tone again
 constexpr float kIntoClip = .20f;  // s over which the aim goes from the cut action to the clip
-constexpr float kMeetFrom = .12f, kMeetBy = .45f;  // s: the simulated motion meets the clip
-constexpr float kProtect = .10f;                   // s: from here on a falling body protects itself
-constexpr float kLimpTone = .03f;                  // of a knocked-out body; 0 looks like a sack
+constexpr float kMeetBy = .45f;    // s: by then the simulated motion has met the clip
+constexpr float kMeetFrom = .12f;  // s: from here on hips and legs do; sooner they would slide
+constexpr float kProtect = .10f;   // s: from here on a falling body protects itself
+constexpr float kLimpTone = .03f;  // of a knocked-out body; 0 looks like a sack
 constexpr float kLyingTone = .08f;
 constexpr float kLetDownTone = .3f;
 constexpr float kFade = .6f;  // s after the landing in which the muscles let go
-constexpr float kGatherFrom = .25f, kGatherUntil = 1.1f;  // s after the landing
+constexpr float kGatherFrom = .25f, kGatherUntil = 1.6f;  // s after the landing
 constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
-constexpr float kGatherTone = .4f;
+constexpr float kGatherTone = .6f;
 constexpr float kRolling = .6f;   // m/s: a body that moves faster has not found its lying pose
 constexpr float kResting = .15f;  // m/s
 constexpr float kRestFor = .25f;  // s
@@ -318,7 +319,12 @@ class Shown {
     Pose pose = ragdoll_.pose();
     // The start pose was let down onto the ground: shown, that comes gradually.
     pose.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
-    const Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
+    Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
+    // Trunk and arms set out at once: what flies off at the hand-over cannot be caught in a frame.
+    const Pose above = mix(pose, clip(tick), smooth(now / kMeetBy));
+    for (std::size_t j = index(Joint::spine); j < index(Joint::left_upper_leg); ++j) {
+      met.rotation[j] = above.rotation[j];
+    }
     return frame_.out(mend_(met));
   }
 

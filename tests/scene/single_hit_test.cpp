@@ -60,6 +60,57 @@ void PrintTo(const Placed& placed, std::ostream* out) {
   *out << placed.strike;
 }
 
+// The change of any joint's velocity between two frames at 60 Hz, m/s, beyond what the clip of the
+// get-up does itself, over its first 0.9 s.
+float jump_into_get_up(const HitAnswer& answer) {
+  const FighterTrack& track = answer.timeline.tracks.front();
+  const BodyModel& body = answer.bodies.front();
+  float largest = -1;
+  for (const Segment& segment : track.segments) {
+    if (segment.kind != Kind::get_up) continue;
+    const auto jumps = [&](const auto& pose_of, Tick t) {
+      const WorldPose a = world_pose(body.skeleton, pose_of(t - 4)),
+                      b = world_pose(body.skeleton, pose_of(t - 2)),
+                      c = world_pose(body.skeleton, pose_of(t));
+      std::array<float, kJointCount> out;
+      for (std::size_t j = 0; j < kJointCount; ++j) {
+        out[j] = 60 * glm::length(c.position[j] - 2.0f * b.position[j] + a.position[j]);
+      }
+      return out;
+    };
+    const Tick start = segment.launch.start;
+    for (Tick t = start + 4; t < start + 108; ++t) {
+      const auto shown =
+          jumps([&](Tick at) { return track.frames[static_cast<std::size_t>(at)]; }, t);
+      const auto own = jumps(
+          [&](Tick at) { return pose_at(default_library(), segment.launch, at, body.scale); }, t);
+      for (std::size_t j = 0; j < kJointCount; ++j) largest = std::max(largest, shown[j] - own[j]);
+    }
+  }
+  return largest;
+}
+
+// One that sat down with a leg stretched out: led along a line to where the get-up has it, the foot
+// passed the hip and the leg turned over at 26 m/s. And one whose arm lies behind its back.
+TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
+  HitQuery seated = query("step_forward_left_long", .059);
+  seated.part = Part::right_thigh;
+  seated.impulse = {-61, 0, 9.4f};
+  seated.tone = .79f;
+  HitQuery on_its_arm = query("step_left", .257);
+  on_its_arm.part = Part::left_thigh;
+  on_its_arm.impulse = {84.4f, 0, 11.7f};
+  on_its_arm.tone = .66f;
+  for (const HitQuery& hit : {seated, on_its_arm}) {
+    const auto answer = simulate_hit(default_library(), hit);
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    ASSERT_EQ(answer->outcome.response, ResponseKind::knockdown) << hit.action;
+    const float jump = jump_into_get_up(*answer);
+    EXPECT_GE(jump, 0) << "no get-up";
+    EXPECT_LT(jump, 1.5f) << hit.action;
+  }
+}
+
 class PlacedStrikeTest : public ::testing::TestWithParam<Placed> {};
 
 TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
