@@ -12,6 +12,7 @@
 #include "scene/study_bouts.h"
 #include "scene/study_clips.h"
 #include "scene/study_penetration.h"
+#include "scene/study_search.h"
 #include "scene/study_slowed.h"
 
 namespace ringcraft {
@@ -30,6 +31,8 @@ struct StudyEntry {
 constexpr StudyEntry kStudies[] = {
     {"penetration", "Pruning by penetration: threshold and check rate", "[SCENE]", 0, 1,
      run_penetration_study},
+    {"search", "A decision's time and its parts; leaves visited, device by device", "[SCENE]", 0, 1,
+     run_search_study},
     {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
      run_clips_study},
     {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0, run_hits_study},
@@ -85,6 +88,14 @@ int finish_study(const Study& study, int code, const CommonOptions& options) {
 
 namespace {
 
+StudyRun study_run(const CommonOptions& options) {
+  StudyRun run;
+  run.threads = options.threads;
+  run.interrupted = &interrupted;
+  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return run;
+}
+
 // The leaf values that were asked for.
 std::vector<LeafValue> leaves_of(const StudyOptions& study) {
   if (study.leaf == "both") return {LeafValue::weighted, LeafValue::paper};
@@ -120,10 +131,7 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, const Bou
   if (!library) return fail(library.error());
   const MotionLibrary used =
       options.slow > 1 ? slowed_library(*library, options.slow) : std::move(*library);
-  StudyRun run;
-  run.threads = common.threads;
-  run.interrupted = &interrupted;
-  if (!common.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const StudyRun run = study_run(common);
   const std::vector<PairingResult> results = run_pairings(used, *scene, pairings, series, run);
   fill_bouts(study, results);
   study.interrupted = run.stopped();
@@ -172,11 +180,23 @@ int run_penetration_study(const StudyOptions& study, const CommonOptions& option
   if (!scene) return fail(scene.error());
   const auto library = load_library(scene->library);
   if (!library) return fail(library.error());
-  StudyRun run;
-  run.threads = options.threads;
-  run.interrupted = &interrupted;
-  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const StudyRun run = study_run(options);
   return finish_study(penetration_study(*library, *scene, {}, run), 0, options);
+}
+
+int run_search_study(const StudyOptions& study, const CommonOptions& options) {
+  const auto scene = scene_of(study, options);
+  if (!scene) return fail(scene.error());
+  const auto library = load_library(scene->library);
+  if (!library) return fail(library.error());
+  const StudyRun run = study_run(options);
+  SearchStudy search;
+  if (study.count) search.decisions = static_cast<std::size_t>(*study.count);
+  if (study.bouts) search.warm_up_bouts = *study.bouts;
+  const Study found = search_study(*library, *scene, search, run);
+  const int code = finish_study(found, 0, options);
+  if (!options.json) fmt::print("{}", study_text(found.timing));
+  return code;
 }
 
 int run_clips_study(const StudyOptions& study, const CommonOptions& options) {

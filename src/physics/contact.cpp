@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kTouch = 1e-4f;  // m: gap that counts as touching
 constexpr int kMostAdvances = 64;
+constexpr float kFarther = 1e-3f;  // m: more than rounding
 // A guard that is met at most this far behind the target (m of the striker's way) still takes the
 // blow: glove and forearm are soft and wider than their capsules.
 constexpr float kGuardReach = 0.02f;
@@ -44,6 +45,11 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
   const Capsule &t0 = target.before[index(struck)], &t1 = target.after[index(struck)];
   const float closing = travel(s0, s1) + travel(t0, t1);
   const float reach = s0.radius + t0.radius;
+  // Too far for the interval, as the spheres around them tell: what the first step below would say.
+  const float spheres = 0.5f * (glm::distance(s0.a, s0.b) + glm::distance(t0.a, t0.b));
+  const float far = spheres + reach + closing + kFarther;
+  const Vec3 apart = (s0.a + s0.b - t0.a - t0.b) * 0.5f;
+  if (glm::dot(apart, apart) > far * far) return std::nullopt;
   float share = 0;
   Capsule s = s0, t = t0;
   SegmentDistance d = segment_distance(s.a, s.b, t.a, t.b);

@@ -130,7 +130,10 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   if (victim.pending.valid()) return;  // struck already at this tick
   DuelEvent event = event_of(node, met);
   ImpactAnswer& answer = event.answer;
-  answer = setup_->memo->answer(event.blow);
+  {
+    const CostSpan span(setup_->cost, CostPart::response, CostPart::contact);
+    answer = setup_->memo->answer(event.blow);
+  }
   const bool lies = victim.balance == 2;
   victim.health -= answer.damage;
   if (victim.health <= 0 && !lies) {  // nobody stands without health
@@ -157,6 +160,7 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
 // Walks the windows tick by tick; returns the tick of the first hit that cuts an action, else
 // `end`.
 Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
+  const CostSpan span(setup_->cost, CostPart::contact);
   find_windows(node, end);
   if (windows_.empty()) return end;
   Tick first = end, last = 0;
@@ -223,6 +227,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
 // F_loc over (from, to], sampled at multiples of kLocationEvery ticks, so that it adds up along a
 // route however the route is cut into edges.
 void Duel::add_location(Node& node, Tick from, Tick to) const {
+  const CostSpan span(setup_->cost, CostPart::location);
   constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
   for (Tick tick = next_multiple(from, kLocationEvery); tick <= to; tick += kLocationEvery) {
     const Placement roots[2] = {node.side[0].flight.root_at(tick),
@@ -246,6 +251,7 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
 }
 
 std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tick to) {
+  const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
   const InFlight& self = node.side[static_cast<std::size_t>(mover)].flight;
   const InFlight& other = node.side[static_cast<std::size_t>(1 - mover)].flight;

@@ -209,6 +209,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
 }
 
 void Duel::score_candidates(const Node& node, int who) {
+  const CostSpan span(setup_->cost, CostPart::candidates);
   static const float kCosineBack = std::cos(kBackTurned);
   const Duelist& self = node.side[static_cast<std::size_t>(who)];
   const SideSetup& own = side(who);
@@ -286,20 +287,24 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
 }
 
 // The best of each class that must not be missing, then the best of the rest; in order of score.
+// A few are wanted of many: they are looked for one by one, and only they are sorted.
 void Duel::pick_candidates(std::size_t most, bool threatened) {
-  std::stable_sort(scored_.begin(), scored_.end(), [](const Scored& a, const Scored& b) {
+  const auto better = [](const Scored& a, const Scored& b) {
     return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
-  });
+  };
   picked_.clear();
   std::size_t left = std::min(most, scored_.size());
   counts_.candidates += scored_.size() - left;
   const auto take = [&](int how_many, const auto& wanted) {
-    for (Scored& one : scored_) {
-      if (how_many == 0 || left == 0) return;
-      if (one.taken || !wanted(class_of(one.kind))) continue;
-      one.taken = true;
-      --left;
-      --how_many;
+    for (; how_many > 0 && left > 0; --how_many, --left) {
+      Scored* best = nullptr;
+      for (Scored& one : scored_) {
+        if (one.taken || !wanted(class_of(one.kind))) continue;
+        if (best == nullptr || better(one, *best)) best = &one;
+      }
+      if (best == nullptr) return;
+      best->taken = true;
+      picked_.push_back(*best);
     }
   };
   take(1, [](Class c) { return c == Class::attack; });
@@ -307,9 +312,7 @@ void Duel::pick_candidates(std::size_t most, bool threatened) {
   take(threatened ? 2 : 1, [](Class c) { return c == Class::defense; });
   take(1, [](Class c) { return c == Class::idle; });
   take(static_cast<int>(left), [](Class) { return true; });
-  for (const Scored& one : scored_) {
-    if (one.taken) picked_.push_back(one);
-  }
+  std::sort(picked_.begin(), picked_.end(), better);  // no two are equal
 }
 
 }  // namespace ringcraft

@@ -12,6 +12,7 @@
 #include "planner/impact_memo.h"
 #include "planner/plan.h"
 #include "planner/search.h"
+#include "planner/search_cost.h"
 
 namespace ringcraft {
 
@@ -76,6 +77,7 @@ struct DuelSetup {
   PlanSettings settings;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
+  SearchCost* cost = nullptr;  // where the time went, for one thread; null: nobody asks
 };
 
 // Something that happened on the way; written down when a line is replayed.
@@ -123,6 +125,14 @@ class Duel {
   Child<Node> apply(const Node& node, const Move& move);
   std::uint32_t key(const Move& move) const {
     return static_cast<std::uint32_t>(move.action.value) * 2 + move.side;
+  }
+
+  // What is answered: the action that the other side has in flight, and the own one that ends.
+  std::uint32_t context(const Node& node) const {
+    const auto next = static_cast<std::size_t>(next_side(node));
+    const auto own = static_cast<std::uint32_t>(node.side[next].flight.launch.action.value);
+    const auto other = static_cast<std::uint32_t>(node.side[1 - next].flight.launch.action.value);
+    return (other * 31 + own) * 2 + static_cast<std::uint32_t>(next);
   }
 
   const DuelCounts& counts() const { return counts_; }

@@ -56,7 +56,8 @@ double launch_points(const Weights& weights, const Style& style, const Action& a
 
 double hit_points(const Weights& weights, const Style& style, StrikeKind kind, std::int32_t damage,
                   bool knockdown) {
-  const auto found = style.strikes.find(std::string(name_of(kind)));
+  const auto found =
+      style.strikes.empty() ? style.strikes.end() : style.strikes.find(std::string(name_of(kind)));
   const double liked = found == style.strikes.end() ? 1.0 : found->second;
   return weights.fight * liked * damage / 1000.0 + (knockdown ? weights.knockdown : 0.0);
 }

@@ -101,13 +101,14 @@ void put_striker(const InFlight& attacker, std::uint32_t parts, const InFlight& 
   }
 }
 
-bool touches(const BodyCapsules& striker, std::uint32_t parts, const Sphere& bound) {
-  constexpr float kTickTravel = 0.15f;  // m: farther than any blow goes in a tick
+bool touches(const BodyCapsules& striker, std::uint32_t parts, const Box& box) {
+  constexpr float kTickTravel = 0.25f;  // m: farther than a blow and what it meets go in a tick
   for (std::size_t i = 0; i < kPartCount; ++i) {
     if (((parts >> i) & 1u) == 0) continue;
     const Capsule& c = striker[i];
-    const float reach = bound.radius + c.radius + 0.5f * glm::distance(c.a, c.b) + kTickTravel;
-    if (glm::distance2((c.a + c.b) * 0.5f, bound.center) < reach * reach) return true;
+    const Vec3 center = (c.a + c.b) * 0.5f;
+    const float reach = c.radius + 0.5f * glm::distance(c.a, c.b) + kTickTravel;
+    if (glm::distance2(center, glm::clamp(center, box.low, box.high)) < reach * reach) return true;
   }
   return false;
 }
@@ -236,7 +237,7 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
   SweptBody striker;
   put_striker(attacker, strike.parts, target, tick, striker.after);
   const Tick age = target.age(tick);
-  if (!touches(striker.after, strike.parts, target.table->bound_at(age))) return std::nullopt;
+  if (!touches(striker.after, strike.parts, target.table->box_at(age))) return std::nullopt;
   put_striker(attacker, strike.parts, target, tick - 1, striker.before);
   SweptBody struck;
   struck.before = target.table->capsules_at(age - 1);

@@ -1,12 +1,14 @@
 #include "planner/plan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "base/random.h"
 #include "planner/duel.h"
 #include "planner/root_search.h"
+#include "planner/tally.h"
 #include "planner/tree.h"
 
 namespace ringcraft {
@@ -24,6 +26,11 @@ constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
 
 bool same_build(const BodySpec& a, const BodySpec& b) {
   return a.height == b.height && a.mass == b.mass && a.sex == b.sex && a.toughness == b.toughness;
+}
+
+// Root moves so far below the best have exact values: they may be chosen.
+std::int32_t margin_of(const Style& style) {
+  return thousandths(kMarginTemperatures * style.temperature);
 }
 
 using Roots = std::vector<RootMove<Duel>>;
@@ -51,6 +58,7 @@ struct Planner::Inside {
   std::vector<std::vector<double>> work;  // J by contender and action; empty where it never tires
   std::vector<Condition> condition;       // by contender
   std::vector<Habits> habits;             // by contender
+  SearchCost* cost = nullptr;
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
          std::shared_ptr<ImpactStore> store);
@@ -161,6 +169,7 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   setup.factors = leaf_factors(setup.side[0].weights);
   setup.settings = settings;
   setup.memo = memo.get();
+  setup.cost = cost;
   for (std::size_t i = 0; i < state.fighters.size(); ++i) {
     if (FighterId(i) == fighter || FighterId(i) == opponent) continue;
     Bystander one;
@@ -197,8 +206,9 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
   const Style& style = *setup.side[0].style;
   const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
   const DuelNode root = Duel::root(setup, state);
-  const std::int32_t margin = thousandths(kMarginTemperatures * style.temperature);
+  const std::int32_t margin = margin_of(style);
   SearchSettings search_settings;
+  search_settings.cost = setup.cost;
   SearchStop stop;
   stop.set_flag(limits.stop);
   const auto begin = SearchStop::Clock::now();
@@ -451,6 +461,29 @@ DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
   return expand_tree(in.setup(state, fighter, opponent, last_contact), state, horizon, most_nodes);
+}
+
+SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last_contact,
+                           Tick horizon, const SearchTrial& trial) const {
+  const Inside& in = *inside_;
+  const FighterId opponent = in.opponent_of(state, fighter);
+  if (!opponent.valid()) return {};
+  const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
+  return tally_of(setup, state, horizon, trial, margin_of(*setup.side[0].style));
+}
+
+TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_contact,
+                         Tick horizon, int dives) const {
+  const Inside& in = *inside_;
+  const FighterId opponent = in.opponent_of(state, fighter);
+  if (!opponent.valid()) return {};
+  const auto seed = derived_seed(in.seed, "shape", static_cast<std::uint64_t>(state.now));
+  return shape_of(in.setup(state, fighter, opponent, last_contact), state, horizon, dives, seed);
+}
+
+void Planner::measure(SearchCost* cost) {
+  assert(cost == nullptr || inside_->settings.threads <= 1);
+  inside_->cost = cost;
 }
 
 void Planner::note_launch(FighterId fighter, ActionId action) {

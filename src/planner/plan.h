@@ -17,6 +17,10 @@ class MotionTables;   // per library and body: capsules, roots and strike sweeps
 struct DecisionTree;  // planner/tree.h
 class ImpactMemo;     // quantised impulse steps, shared by a fight; a memo never changes a result
 class ImpactStore;    // impulse steps that are known already, shared by planners
+struct SearchCost;    // planner/search_cost.h
+struct SearchTrial;   // planner/tally.h
+struct SearchTally;
+struct TreeShape;
 
 // One fighter as the planner sees it.
 struct Contender {
@@ -83,6 +87,16 @@ class Planner {
   // fought.
   DecisionTree tree(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
                     std::size_t most_nodes) const;
+
+  // One search of the same decision to `horizon` ticks from now, without a limit and on one thread;
+  // and what the tree that it searches looks like, by `dives` random ways down. For studies.
+  SearchTally tally(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
+                    const SearchTrial& trial) const;
+  TreeShape shape(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
+                  int dives) const;
+
+  // From now on plans add the time of their parts to `cost` (null: no longer). For one thread.
+  void measure(SearchCost* cost);
 
   // Rarity: tells the planner what was committed.
   void note_launch(FighterId fighter, ActionId action);

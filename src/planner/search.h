@@ -15,6 +15,9 @@
 #include <optional>
 #include <vector>
 
+#include "planner/search_cost.h"
+#include "planner/search_devices.h"
+
 namespace ringcraft {
 
 enum class Actor : std::uint8_t { maximizer, minimizer, forced };
@@ -42,7 +45,7 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
   { game.moves(node, moves) } -> std::same_as<void>;
   { game.apply(node, move) } -> std::same_as<Child<typename G::Node>>;
   { game.key(move) } -> std::same_as<std::uint32_t>;
-};
+};  // and, if it likes, context(node): what a move is an answer to, as a number
 
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
 inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
@@ -67,13 +70,11 @@ class SearchStop {
   std::optional<Clock::time_point> deadline_;
 };
 
-struct SearchSettings {
-  bool table = true;                 // transposition table
-  bool killers = true;               // moves that cut off at the same depth are tried early
-  bool history = true;               // so are moves that cut off anywhere
+struct SearchSettings : SearchDevices {
   int table_bits = 14;               // log2 of the table's size
   std::uint64_t node_limit = 0;      // 0 is none
   const SearchStop* stop = nullptr;  // looked at every few nodes
+  SearchCost* cost = nullptr;        // of one thread
 };
 
 struct SearchCounts {
@@ -250,7 +251,8 @@ class Search {
       ++counts_.leaves;
       return {game.value(node), kNoMove};
     }
-    order(game, here, actor, first);
+    const std::size_t context = context_of(game, node);
+    order(game, here, actor, first, context);
     const bool max = actor == Actor::maximizer;
     Found found{max ? kWorst : kBest, kNoMove};
     bool any = false;
@@ -259,7 +261,16 @@ class Search {
     std::size_t spare_index = 0;
     // True when the window is closed and the rest need not be looked at.
     const auto weigh = [&](const Node& child, const Move& move) {
-      const std::int32_t value = visit(game, child, alpha, beta, depth + 1, here.line);
+      std::int32_t value = 0;
+      const bool scouts =
+          settings_.null_window && found.best != kNoMove && beta - std::int64_t{1} > alpha;
+      if (scouts) {  // first only whether it is better than the best so far
+        value = max ? visit(game, child, alpha, alpha + 1, depth + 1, here.line)
+                    : visit(game, child, beta - 1, beta, depth + 1, here.line);
+      }
+      if (!scouts || (!aborted_ && value > alpha && value < beta)) {
+        value = visit(game, child, alpha, beta, depth + 1, here.line);
+      }
       if (aborted_) return true;
       if (max ? value > found.value : value < found.value) {
         found = {value, game.key(move)};
@@ -284,7 +295,7 @@ class Search {
       }
       any = true;
       if (weigh(child.node, move)) {
-        if (!aborted_) note_cutoff(here, actor, game.key(move));
+        if (!aborted_) note_cutoff(here, actor, game.key(move), context);
         return found;
       }
     }
@@ -294,16 +305,20 @@ class Search {
 
   // Table move, killers, then the game's own order, in which history moves a candidate up by at
   // most two places. Stable: the same moves in the same state always come in the same order.
-  void order(G& game, Level& here, Actor actor, std::uint32_t first) {
+  void order(G& game, Level& here, Actor actor, std::uint32_t first, std::size_t context) {
+    const CostSpan span(settings_.cost, CostPart::ordering);
     std::vector<Rank>& ranks = ranks_;
     ranks.clear();
     const auto& history = history_[actor == Actor::maximizer ? 0 : 1];
     const std::uint64_t most = history_most_[actor == Actor::maximizer ? 0 : 1];
     for (std::size_t i = 0; i < here.moves.size(); ++i) {
       const std::uint32_t key = game.key(here.moves[i]);
-      std::int64_t place = static_cast<std::int64_t>(i) * 1024;
+      std::int64_t place = static_cast<std::int64_t>(settings_.own_order ? i : key) * 1024;
       if (settings_.history && key < history.size()) {
         place -= static_cast<std::int64_t>(2048 * history[key] / (most + 1));
+      }
+      if (settings_.answers && (key == answers_[context][0] || key == answers_[context][1])) {
+        place -= 1 << 20;
       }
       if (settings_.killers && (key == here.killers[0] || key == here.killers[1])) place -= 1 << 20;
       if (key == first) place -= 1 << 21;
@@ -317,13 +332,26 @@ class Search {
     for (std::size_t i = 0; i < ranks.size(); ++i) here.moves[i] = ranks[i].move;
   }
 
-  void note_cutoff(Level& here, Actor actor, std::uint32_t key) {
+  void note_cutoff(Level& here, Actor actor, std::uint32_t key, std::size_t context) {
     ++counts_.cutoffs;
+    auto& answers = answers_[context];
+    if (answers[0] != key) answers = {key, answers[0]};
     if (here.killers[0] != key) here.killers = {key, here.killers[0]};
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
   }
+
+  // What a move answers, where the game says so: the same number for the same thing.
+  static std::size_t context_of(G& game, const Node& node) {
+    if constexpr (requires { game.context(node); }) {
+      return static_cast<std::size_t>(game.context(node)) % kContexts;
+    } else {
+      return 0;
+    }
+  }
+
+  static constexpr std::size_t kContexts = 1024;
 
   struct Rank {
     std::int64_t place;
@@ -338,6 +366,8 @@ class Search {
   std::vector<std::unique_ptr<Level>> levels_;
   std::array<std::vector<std::uint64_t>, 2> history_;
   std::array<std::uint64_t, 2> history_most_{};
+  std::vector<std::array<std::uint32_t, 2>> answers_ =
+      std::vector<std::array<std::uint32_t, 2>>(kContexts, {kNoMove, kNoMove});
   std::vector<Rank> ranks_;  // of order()
 };
 

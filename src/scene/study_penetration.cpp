@@ -6,19 +6,12 @@
 #include <fmt/format.h>
 
 #include "io/quality.h"
-#include "scene/bout.h"
+#include "scene/moments.h"
 
 namespace ringcraft {
 namespace {
 
 constexpr float kDeep = 0.03f;  // m: deeper for more than two frames is seen
-
-// A moment at which a fighter chooses.
-struct Moment {
-  FightState state;
-  FighterId fighter;
-  Tick last_contact = 0;
-};
 
 struct Planned {
   std::vector<double> points;        // value of the best line, one a moment
@@ -34,14 +27,7 @@ struct Fought {
   bool interrupted = false;
 };
 
-std::vector<Moment> moments_of(const MotionLibrary& library, const SceneFile& scene,
-                               const FightOptions& options, std::size_t wanted) {
-  std::vector<Moment> all;
-  Bout bout(library, scene, options);
-  while (const auto fighter = run_to_decision(bout)) {
-    all.push_back({bout.state(), *fighter, bout.last_contact()});
-    bout.commit(*fighter, bout.decide(*fighter));
-  }
+std::vector<Moment> some_of(std::vector<Moment> all, std::size_t wanted) {
   if (all.size() <= wanted) return all;
   std::vector<Moment> some;
   some.reserve(wanted);
@@ -135,7 +121,7 @@ Study penetration_study(const MotionLibrary& library, const SceneFile& scene,
   with.planner.threads = 1;
   with.planner.prune.penetration = false;
   run.say("no pruning");
-  const std::vector<Moment> moments = moments_of(library, with, options, sweep.decisions);
+  const std::vector<Moment> moments = some_of(moments_of(library, with, options), sweep.decisions);
 
   Study study;
   study.name = "penetration";
