@@ -12,12 +12,13 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", to_string(scene.error()));
     return static_cast<int>(scene.error().kind);
   }
-  const auto library = load_library(scene->library);
-  if (!library) {
-    fmt::print(stderr, "{}\n", to_string(library.error()));
-    return static_cast<int>(library.error().kind);
+  auto loaded = load_library(scene->library);
+  if (!loaded) {
+    fmt::print(stderr, "{}\n", to_string(loaded.error()));
+    return static_cast<int>(loaded.error().kind);
   }
-  const FightRecord record = simulate_fight(*library, *scene);
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const FightRecord record = simulate_fight(library, *scene);
 
   const auto name = [&](FighterId id) { return scene->fighters[id.at()].name; };
   for (const Event& event : record.timeline.events) {

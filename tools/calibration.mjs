@@ -16,6 +16,7 @@ const follows = {
   "combinations.toml": "contact to contact 0.19-0.31 s from jab to cross and jab to jab (captured)",
   "defenses.toml": "a head's radius and a fist's, 0.17 m, off the line; no captured slips",
   "steps.toml": "captured steps: 0.21-0.27 s, 0.12 [0.04..0.26] H, 2-4 cm lift, nearer foot first",
+  "switch.toml": "the steps' lift and times; no captured change of stance",
   "responses.toml": "V2: recovery steps start at 0.2-0.3 s and land at 0.4-0.6 s, 0.3-0.5 m",
   "falls.toml": "captured fall and get-ups: hips before trunk, head last, pause in the squat",
   "close.toml": "hooks and the front kick with the forearm or the shin folded; no captured elbows, knees or shoves",

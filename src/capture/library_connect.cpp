@@ -33,6 +33,12 @@ MotionLibrary connected_library(const std::string& name, std::vector<Action> act
                                 const LibraryBuildSettings& settings) {
   const Skeleton skeleton = canonical_skeleton();
   const StateMachineSettings machine;
+  // What ends in the other stance leads nowhere in this one.
+  const auto first_switch = std::stable_partition(
+      actions.begin(), actions.end(), [](const Action& action) { return !action.switches; });
+  std::vector<Action> switches(std::make_move_iterator(first_switch),
+                               std::make_move_iterator(actions.end()));
+  actions.erase(first_switch, actions.end());
   // Blends follow what they are made of frame by frame: they lead where these do, by edges of their
   // own, and would only double the graph.
   const auto first_blend = std::stable_partition(
@@ -63,7 +69,7 @@ MotionLibrary connected_library(const std::string& name, std::vector<Action> act
   std::vector<std::string> dropped = all.dropped();
   dropped.insert(dropped.end(), library.dropped().begin(), library.dropped().end());
   return MotionLibrary(LibraryParts{name, library.actions(), library.machine(), std::move(graph),
-                                    std::move(dropped), std::move(notes)});
+                                    std::move(dropped), std::move(notes), std::move(switches)});
 }
 
 }  // namespace ringcraft

@@ -166,6 +166,7 @@ class Reader {
     if (table.contains("ends_lying")) {
       action.ends_lying = lying_from_name(spelled(table["ends_lying"])).value();
     }
+    action.switches = table.value("switches", false);
     if (table.contains("defense")) {
       const json& d = table["defense"];
       action.defense = Defense{defense_kind_from_name(spelled(d["kind"])).value(),

@@ -61,12 +61,13 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
-  const auto library = load_library(scene->library);
-  if (!library) return fail(library.error());
+  auto loaded = load_library(scene->library);
+  if (!loaded) return fail(loaded.error());
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
 
-  spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library->name(),
-               library->actions().size(), library->dropped().size(), library->hash());
-  for (const std::string& dropped : library->dropped()) spdlog::info("dropped {}", dropped);
+  spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library.name(),
+               library.actions().size(), library.dropped().size(), library.hash());
+  for (const std::string& dropped : library.dropped()) spdlog::info("dropped {}", dropped);
 
   FightOptions fight_options;
   fight_options.threads = options.threads;
@@ -77,7 +78,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
     };
   }
   const auto begin = std::chrono::steady_clock::now();
-  const FightRecord record = simulate_fight(*library, *scene, fight_options);
+  const FightRecord record = simulate_fight(library, *scene, fight_options);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) fmt::print(stderr, "\n");
 
@@ -87,7 +88,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
   const auto summary =
-      write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
+      write_fight(folder, *scene, library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
   fmt::print("{}\n", options.json ? summary->report : summary->text);
   return record.interrupted ? 130 : 0;

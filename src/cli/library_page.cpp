@@ -60,15 +60,21 @@ std::string link_to(const Action& action) {
   return fmt::format("<a href=\"#a-{0}\">{0}</a>", escaped(action.name));
 }
 
+// The action of measure()'s entry i: one of the library, or one of its changes of stance.
+const Action& measured(const MotionLibrary& library, std::size_t i) {
+  const std::size_t own = library.actions().size();
+  return i < own ? library.actions()[i] : library.switches()[i - own];
+}
+
 std::string table_rows(const MotionLibrary& library, const std::vector<ActionMeasures>& measures) {
   std::string rows;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const ActionMeasures& m = measures[i];
-    if (library.action(ActionId(i)).connects) continue;
+    if (measured(library, i).connects) continue;
     rows += fmt::format(
         "<tr><td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.1f}<td>{:.2f}<td>{:.0f}<td>{:.3f}<td>{}<td>{}</"
         "tr>\n",
-        link_to(library.action(ActionId(i))), name_of(m.kind), m.seconds, m.strike_begin_s,
+        link_to(measured(library, i)), name_of(m.kind), m.seconds, m.strike_begin_s,
         m.peak_speed_mps, m.travel_m, degrees(static_cast<float>(m.turn_rad)), m.foot_skate,
         m.leads_to, escaped(m.source));
   }
@@ -199,8 +205,8 @@ std::string strike_speeds(const std::vector<StrikeMeasures>& strikes, const Acti
 std::string actions_of(const MotionLibrary& library, const std::vector<ActionMeasures>& measures) {
   const std::vector<StrikeMeasures> strikes = measure_strikes(library);
   std::string text;
-  for (std::size_t i = 0; i < library.actions().size(); ++i) {
-    const Action& action = library.action(ActionId(i));
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const Action& action = measured(library, i);
     if (action.connects) continue;
     const ActionMeasures& m = measures[i];
     text += fmt::format(
@@ -209,7 +215,8 @@ std::string actions_of(const MotionLibrary& library, const std::vector<ActionMea
         escaped(action.name), name_of(action.kind), m.seconds, m.travel_m,
         m.travel_m / std::max(m.seconds, 0.01), degrees(static_cast<float>(m.turn_rad)),
         strike_speeds(strikes, action), escaped(action.source));
-    text += phases_of(action) + leads_to(library, ActionId(i));
+    text += phases_of(action);
+    if (!action.switches) text += leads_to(library, ActionId(i));
     text += fmt::format("<div class=\"film\">{}</div></article>\n",
                         filmstrip_svg(library.skeleton(), {action}));
   }

@@ -178,22 +178,24 @@ int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  const auto library = load_library(scene->library);
-  if (!library) return fail(library.error());
+  auto loaded = load_library(scene->library);
+  if (!loaded) return fail(loaded.error());
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
   const StudyRun run = study_run(options);
-  return finish_study(penetration_study(*library, *scene, {}, run), 0, options);
+  return finish_study(penetration_study(library, *scene, {}, run), 0, options);
 }
 
 int run_search_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  const auto library = load_library(scene->library);
-  if (!library) return fail(library.error());
+  auto loaded = load_library(scene->library);
+  if (!loaded) return fail(loaded.error());
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
   const StudyRun run = study_run(options);
   SearchStudy search;
   if (study.count) search.decisions = static_cast<std::size_t>(*study.count);
   if (study.bouts) search.warm_up_bouts = *study.bouts;
-  const Study found = search_study(*library, *scene, search, run);
+  const Study found = search_study(library, *scene, search, run);
   const int code = finish_study(found, 0, options);
   if (!options.json) fmt::print("{}", study_text(found.timing));
   return code;

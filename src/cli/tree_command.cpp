@@ -13,13 +13,14 @@ int run_tree(const std::string& scene_name, const TreeOptions& tree, const Commo
   if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
   const auto scene = read_scene(scene_name, sets);
   if (!scene) return fail(scene.error());
-  const auto library = load_library(scene->library);
-  if (!library) return fail(library.error());
+  auto loaded = load_library(scene->library);
+  if (!loaded) return fail(loaded.error());
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
 
   FightOptions fight_options;
   fight_options.threads = options.threads;
   fight_options.interrupted = &interrupted;
-  const auto found = tree_at(*library, *scene, tree.at_s, tree.nodes, fight_options);
+  const auto found = tree_at(library, *scene, tree.at_s, tree.nodes, fight_options);
   if (interrupted) return 130;
   if (!found) return fail(found.error());
 

@@ -1,6 +1,7 @@
 #include "io/quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "motion/quality.h"
@@ -40,6 +41,50 @@ std::vector<std::uint32_t> intended_by_tick(const FighterTrack& track,
   return parts;
 }
 
+constexpr Tick kSpeedTicks = 2;  // to both sides: passes what the captures' 15-20 Hz filters pass
+
+// Nearest rank: the smallest value that 99 % do not exceed; 0 of none.
+double percentile_99(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const std::size_t rank = (99 * values.size() + 99) / 100;
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+// Which ticks a fighter spends in actions that it chose.
+std::vector<bool> chosen_ticks(const FighterTrack& track) {
+  std::vector<bool> chosen(track.frames.size(), false);
+  const auto last = static_cast<Tick>(chosen.size());
+  for (const Segment& segment : track.segments) {
+    const bool own = segment.kind != Kind::response && segment.kind != Kind::get_up;
+    const Tick end = std::min(segment.launch.end, last);
+    for (Tick tick = std::max(segment.launch.start, 0); tick < end; ++tick) {
+      chosen[static_cast<std::size_t>(tick)] = own;
+    }
+  }
+  return chosen;
+}
+
+void add_wrist_speeds(const Skeleton& skeleton, const FighterTrack& track,
+                      std::vector<float>& speeds) {
+  constexpr auto kAside = static_cast<std::size_t>(kSpeedTicks);
+  const std::vector<bool> chosen = chosen_ticks(track);
+  std::vector<std::array<Vec3, 2>> wrists;
+  wrists.reserve(track.frames.size());
+  for (const Pose& frame : track.frames) {
+    const WorldPose world = world_pose(skeleton, frame);
+    wrists.push_back(
+        {world.position[index(Joint::left_hand)], world.position[index(Joint::right_hand)]});
+  }
+  for (std::size_t i = kAside; i + kAside < wrists.size(); ++i) {
+    if (!chosen[i]) continue;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const float way = glm::distance(wrists[i + kAside][side], wrists[i - kAside][side]);
+      speeds.push_back(way * kTicksPerSecond / (2.0f * kSpeedTicks));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<float> penetration_by_tick(const Timeline& timeline,
@@ -74,23 +119,21 @@ FightQuality quality_of(const Timeline& timeline, const std::vector<BodyModel>& 
                         const MotionLibrary& library) {
   FightQuality quality;
   std::vector<float> depths = penetration_by_tick(timeline, bodies, library);
-  if (!depths.empty()) {
-    std::sort(depths.begin(), depths.end());
-    // Nearest rank: the smallest depth that 99 % of the ticks do not exceed.
-    const std::size_t rank = (99 * depths.size() + 99) / 100;
-    quality.penetration_p99_m = depths[std::max<std::size_t>(rank, 1) - 1];
-    quality.penetration_max_m = depths.back();
-  }
+  quality.penetration_p99_m = percentile_99(depths);
+  if (!depths.empty()) quality.penetration_max_m = depths.back();
+  std::vector<float> wrist_speeds;
   const std::size_t count = std::min(timeline.tracks.size(), bodies.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::vector<Pose>& frames = timeline.tracks[i].frames;
     if (frames.size() < 2) continue;
     quality.foot_skate_ratio +=
         foot_skate_ratio(bodies[i].skeleton, frames, kTicksPerSecond) / static_cast<double>(count);
+    add_wrist_speeds(bodies[i].skeleton, timeline.tracks[i], wrist_speeds);
     for (const Pose& frame : frames) {
       quality.joint_limit_violations += limit_violations(bodies[i], frame, kJointTolerance).size();
     }
   }
+  quality.wrist_speed_p99_mps = percentile_99(wrist_speeds);
   return quality;
 }
 

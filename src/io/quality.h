@@ -15,6 +15,9 @@ struct FightQuality {
   double penetration_max_m = 0;
   double foot_skate_ratio = 0;               // motion/quality.h, mean over fighters
   std::uint64_t joint_limit_violations = 0;  // joints times ticks beyond their range
+  // m/s: 99th percentile over all wrists and ticks of chosen actions (neither answers to hits nor
+  // get-ups) of the speed in the world, over 33 ms. Captured boxers: 4.2-6.8.
+  double wrist_speed_p99_mps = 0;
 };
 
 inline constexpr float kJointTolerance =

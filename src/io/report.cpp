@@ -194,7 +194,8 @@ json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks
            {{"penetration_p99_m", rounded(quality.penetration_p99_m, 5)},
             {"penetration_max_m", rounded(quality.penetration_max_m, 5)},
             {"foot_skate_ratio", rounded(quality.foot_skate_ratio, 5)},
-            {"joint_limit_violations", quality.joint_limit_violations}}}};
+            {"joint_limit_violations", quality.joint_limit_violations},
+            {"wrist_speed_p99_mps", rounded(quality.wrist_speed_p99_mps, 3)}}}};
 }
 
 json timing_json(const Timeline& timeline, const ClockFacts& clock, const std::string& version) {

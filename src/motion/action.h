@@ -64,6 +64,9 @@ struct Response {
 
 enum class Lying : std::uint8_t { none, back, front, side, seat };
 
+// Which foot is ahead: orthodox the left one, southpaw the right one.
+enum class Stance : std::uint8_t { orthodox, southpaw };
+
 struct Action {
   std::string name;
   Kind kind = Kind::idle;
@@ -73,6 +76,8 @@ struct Action {
   std::optional<Response> response;
   Lying starts_lying = Lying::none;  // get-ups
   Lying ends_lying = Lying::none;    // knockdowns
+  Stance stance = Stance::orthodox;  // of whom it is for
+  bool switches = false;             // ends in the other stance
   // Made by the builder from a way through the motion graph: leads from one action to another and
   // is never chosen for itself.
   bool connects = false;

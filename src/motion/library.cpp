@@ -44,6 +44,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
     }
     hasher.add(action.starts_lying).add(action.ends_lying);
     if (action.connects) hasher.add(action.connects);
+    if (action.stance != Stance::orthodox) hasher.add(action.stance);
     add(hasher, action.clip);
   }
   return hasher.digest();
@@ -74,7 +75,8 @@ MotionLibrary::MotionLibrary(LibraryParts parts)
       machine_(std::move(parts.machine)),
       graph_(std::move(parts.graph)),
       dropped_(std::move(parts.dropped)),
-      notes_(std::move(parts.notes)) {
+      notes_(std::move(parts.notes)),
+      switches_(std::move(parts.switches)) {
   sort_actions();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The motion library: every action of one stance and the state machine over them. Immutable.
+// The motion library: every action of one stance (of both: both_stances.h) and the state machine
+// over them. Immutable.
 
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct LibraryParts {
   StateMachine machine;
   MotionGraph graph;
   std::vector<std::string> dropped, notes;
+  std::vector<Action> switches;
 };
 
 class MotionLibrary {
@@ -30,7 +32,8 @@ class MotionLibrary {
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight
   const std::vector<Action>& actions() const { return actions_; }
   const Action& action(ActionId id) const { return actions_[id.at()]; }
-  ActionId find(std::string_view name) const;  // invalid when there is none
+  // Invalid when there is none; of both stances, the orthodox one.
+  ActionId find(std::string_view name) const;
   const StateMachine& machine() const { return machine_; }
   const MotionGraph& graph() const { return graph_; }  // empty where none was built
   const std::vector<std::string>& dropped() const { return dropped_; }
@@ -42,6 +45,8 @@ class MotionLibrary {
   const std::vector<ActionId>& launchable() const { return launchable_; }
   const std::vector<ActionId>& responses() const { return responses_; }
   const std::vector<ActionId>& get_ups() const { return get_ups_; }
+  // Actions that end in the other stance: of no use before both_stances() makes that one.
+  const std::vector<Action>& switches() const { return switches_; }
   std::size_t count(Kind kind) const;
   std::uint64_t hash() const { return hash_; }
 
@@ -54,6 +59,7 @@ class MotionLibrary {
   StateMachine machine_;
   MotionGraph graph_;
   std::vector<std::string> dropped_, notes_;
+  std::vector<Action> switches_;
   std::vector<ActionId> launchable_, responses_, get_ups_;
   std::uint64_t hash_ = 0;
 };

@@ -92,13 +92,21 @@ float yaw_of_body(const Skeleton& skeleton, const Pose& pose) {
   return yaw_of(Vec3{d.x, 0, d.z});
 }
 
+std::vector<ActionId> get_ups_of(const MotionLibrary& library, Stance stance) {
+  std::vector<ActionId> result;
+  std::copy_if(library.get_ups().begin(), library.get_ups().end(), std::back_inserter(result),
+               [&](ActionId id) { return library.action(id).stance == stance; });
+  return result;
+}
+
 }  // namespace
 
 bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
   return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
 }
 
-ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing) {
+ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing,
+                         Stance stance) {
   const float direction = wrapped_angle(outcome.direction - facing);
   std::array<Vec3, 3> simulated = outcome.moved;
   for (Vec3& m : simulated) m = yaw_rotation(-facing) * m;
@@ -107,7 +115,7 @@ ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outc
   Misfit least;
   for (const ActionId id : library.responses()) {
     const Action& action = library.action(id);
-    if (!action.response) continue;
+    if (!action.response || action.stance != stance) continue;
     Misfit m = misfit(*action.response, outcome, direction);
     if (bends) m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip));
     if (!best.valid() || m.better_than(least)) {  // equal: the lower index stays
@@ -136,19 +144,20 @@ std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying,
   return best;
 }
 
-std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton) {
+std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton,
+                              Stance stance) {
   std::vector<Pose> poses;
-  poses.reserve(library.get_ups().size());
-  for (const ActionId id : library.get_ups()) {
+  for (const ActionId id : get_ups_of(library, stance)) {
     poses.push_back(scaled(library.action(id).clip.at(0), skeleton.height / kCanonicalHeight));
   }
   return poses;
 }
 
-ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose) {
-  if (library.get_ups().empty()) return {};
-  const std::vector<Pose> lying = lying_poses(library, skeleton);
-  return library.get_ups()[nearest_lying(skeleton, lying, pose)];
+ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose,
+                       Stance stance) {
+  const std::vector<ActionId> get_ups = get_ups_of(library, stance);
+  if (get_ups.empty()) return {};
+  return get_ups[nearest_lying(skeleton, lying_poses(library, skeleton, stance), pose)];
 }
 
 }  // namespace ringcraft

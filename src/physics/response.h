@@ -19,16 +19,20 @@ bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 // The response action of the outcome's kind that fits best by steps, by direction (seen from a body
 // that faces `facing`, world yaw) and by the motion of head, chest and hips that it continues.
 // Equal ones: the lower index. The library must hold one response at least.
-ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing);
+// Only responses of the struck fighter's stance count.
+ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing,
+                         Stance stance = Stance::orthodox);
 
 // Which of the lying poses is nearest to `pose`: by where the trunk's joints are about the hips and
 // how high, the limbs counting for less, since a lying body can move those. Not for an empty list.
 std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose);
 
-// The poses that the library's get-ups start from, for that body, in their order.
-std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton);
+// The poses that the library's get-ups of one stance start from, for that body, in their order.
+std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton,
+                              Stance stance = Stance::orthodox);
 
-// The get-up that starts from the lying pose nearest to `pose`.
-ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose);
+// The get-up of that stance that starts from the lying pose nearest to `pose`.
+ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, const Pose& pose,
+                       Stance stance = Stance::orthodox);
 
 }  // namespace ringcraft

@@ -140,7 +140,8 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
     answer.response = choose_response(side(event.victim).tables->library(), answer.outcome,
-                                      victim.flight.table->root_at(event.blow.struck_age).yaw);
+                                      victim.flight.table->root_at(event.blow.struck_age).yaw,
+                                      victim.flight.table->action->stance);
   }
   if (events_ != nullptr) events_->push_back(event);
   if (setup_->settings.prune.unanswered_hit && unanswered(node, event, *met.window.flight, move)) {

@@ -218,7 +218,8 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotio
   input.contacts = action.action->clip.contacts_at(age);
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
   if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input, own);
-  answer.response = choose_response(victim.library(), answer.outcome, facing);
+  answer.response =
+      choose_response(victim.library(), answer.outcome, facing, action.action->stance);
   answer.damage = damage_of(input.blow, answer.outcome);
   return turned(answer, -facing);
 }

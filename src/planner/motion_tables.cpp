@@ -171,7 +171,8 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
   for (std::size_t i = 0; i < actions_.size(); ++i) {
     ActionTable& table = actions_[i];
     if (table.action->ends_lying != Lying::none && !library.get_ups().empty()) {
-      table.get_up = choose_get_up(library, body_.skeleton, table.pose.back());
+      table.get_up =
+          choose_get_up(library, body_.skeleton, table.pose.back(), table.action->stance);
     }
     for (const ActionId to : library.launchable()) {
       if (auto next = next_action(ActionId(i), to)) table.next.push_back(std::move(*next));

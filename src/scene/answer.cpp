@@ -15,7 +15,8 @@ constexpr Tick kSimulatedTicks = 18;
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
                  const ImpactInput& input, const ImpactOutcome& outcome) {
   const float facing = root_at(library, cut, now, body.scale).yaw;
-  const ActionId response = choose_response(library, outcome, facing);
+  const Stance stance = library.action(cut.action).stance;
+  const ActionId response = choose_response(library, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);
   const bool falls = outcome.response == ResponseKind::knockdown;
@@ -24,14 +25,15 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   for (Tick t = 0; t <= ticks; ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
-  answer.simulated =
-      simulate_response(body, input, outcome, target, ticks, lying_poses(library, body.skeleton));
+  answer.simulated = simulate_response(body, input, outcome, target, ticks,
+                                       lying_poses(library, body.skeleton, stance));
   return answer;
 }
 
 Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen,
                    Tick now, const Pose& shown) {
-  const ActionId action = choose_get_up(library, body.skeleton, shown);
+  const ActionId action =
+      choose_get_up(library, body.skeleton, shown, library.action(fallen.action).stance);
   Launch launch = forced_get_up(library, fallen, action, now, body.scale);
   launch.placement = aligned(body.skeleton, shown, library.action(action).clip).placement;
   return launch;

@@ -40,11 +40,15 @@ std::vector<BodyModel> bodies_of(const SceneFile& scene) {
 }
 
 // The idle that opens a bout; every library has one, the builder sees to it.
-ActionId opening_action(const MotionLibrary& library) {
+ActionId opening_action(const MotionLibrary& library, Stance stance) {
+  ActionId first;
   for (const ActionId id : library.launchable()) {
+    if (library.action(id).stance != stance) continue;
     if (library.action(id).kind == Kind::idle) return id;
+    if (!first.valid()) first = id;
   }
-  return library.launchable().front();
+  assert(first.valid() && "a southpaw needs a library of both stances: library_for()");
+  return first;
 }
 
 }  // namespace
@@ -61,7 +65,7 @@ Bout::Bout(const MotionLibrary& library, const SceneFile& scene, const FightOpti
     contenders.push_back({stage_.body(FighterId(i)), scene.fighters[i].style});
     FighterState state;
     state.health = scene.fighters[i].health;
-    state.launch.action = opening_action(library);
+    state.launch.action = opening_action(library, scene.fighters[i].stance);
     state.launch.placement = scene.fighters[i].placement;
     state.launch.end = kOpeningTicks;
     state_.fighters.push_back(state);

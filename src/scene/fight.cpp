@@ -1,5 +1,6 @@
 #include "scene/fight.h"
 
+#include "motion/both_stances.h"
 #include "scene/bout.h"
 
 namespace ringcraft {
@@ -24,6 +25,10 @@ std::optional<FighterId> run_to_decision(Bout& bout) {
     }
   }
   return std::nullopt;
+}
+
+MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
+  return scene.needs_both_stances() ? both_stances(library, scene.stance_switches) : library;
 }
 
 // The main path. Decisions fall when an action ends.

@@ -131,32 +131,42 @@ bool has_response(const MotionLibrary& library, ResponseKind kind, int steps) {
 
 }  // namespace
 
+namespace {
+
+ActionMeasures measure_action(const BodyModel& body, const Action& action) {
+  const Skeleton& skeleton = body.skeleton;
+  const Placement& end = action.clip.root_at(action.length());
+  ActionMeasures m;
+  m.name = action.name;
+  m.kind = action.kind;
+  m.authored = is_authored(action);
+  m.seconds = seconds(action.length());
+  m.peak_speed_mps = peak_speed(skeleton, action);
+  if (action.attacks()) m.strike_begin_s = seconds(action.strikes.front().active_begin);
+  m.travel_m = glm::length(end.position());
+  m.turn_rad = end.yaw;
+  m.foot_skate = foot_skate_ratio(skeleton, action.clip.frames, kTicksPerSecond);
+  measure_limits(body, action, m);
+  measure_self_penetration(body, action, m);
+  m.still_hands = still_hands(skeleton, action);
+  m.head_moves_m = head_moves(skeleton, action);
+  m.source = action.source;
+  return m;
+}
+
+}  // namespace
+
 std::vector<ActionMeasures> measure(const MotionLibrary& library) {
   BodySpec spec;
   spec.height = kCanonicalHeight;
   const BodyModel body = make_body(spec);
   std::vector<ActionMeasures> all;
+  all.reserve(library.actions().size() + library.switches().size());
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
-    const Action& action = library.actions()[i];
-    const Placement& end = action.clip.root_at(action.length());
-    ActionMeasures m;
-    m.name = action.name;
-    m.kind = action.kind;
-    m.authored = is_authored(action);
-    m.seconds = seconds(action.length());
-    m.peak_speed_mps = peak_speed(library.skeleton(), action);
-    if (action.attacks()) m.strike_begin_s = seconds(action.strikes.front().active_begin);
-    m.travel_m = glm::length(end.position());
-    m.turn_rad = end.yaw;
-    m.foot_skate = foot_skate_ratio(library.skeleton(), action.clip.frames, kTicksPerSecond);
-    measure_limits(body, action, m);
-    measure_self_penetration(body, action, m);
-    m.still_hands = still_hands(library.skeleton(), action);
-    m.head_moves_m = head_moves(library.skeleton(), action);
-    m.leads_to = library.machine().edges(ActionId(i)).size();
-    m.source = action.source;
-    all.push_back(std::move(m));
+    all.push_back(measure_action(body, library.actions()[i]));
+    all.back().leads_to = library.machine().edges(ActionId(i)).size();
   }
+  for (const Action& action : library.switches()) all.push_back(measure_action(body, action));
   return all;
 }
 
@@ -192,6 +202,11 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
       check.faults.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
     }
   }
+  for (const Action& action : library.switches()) {
+    for (const std::string& fault : faults(action.clip)) {
+      check.faults.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
+    }
+  }
   for (const ActionMeasures& m : check.actions) {
     if (m.limit_violations > 0) {
       check.faults.push_back(fmt::format("{}: joints beyond their range in {} frames, {}", m.name,
@@ -201,14 +216,18 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
       check.faults.push_back(fmt::format("{}: feet slide, ratio {:.3f}", m.name, m.foot_skate));
     }
     if (m.authored && m.self_penetration_m > kMostSelfPenetration) {
-      check.faults.push_back(
-          fmt::format("{}: the body is {:.3f} m inside itself", m.name, m.self_penetration_m));
+      check.faults.push_back(fmt::format("{}: the body is {:.3f} m inside itself, {}", m.name,
+                                         m.self_penetration_m, m.worst_pair));
     }
   }
   for (const StrikeMeasures& m : check.strikes) {
     if (m.authored && m.lands_to == 0) {
       check.faults.push_back(
           fmt::format("{}: strike {} meets its zone from nowhere", m.action, m.number + 1));
+    }
+    if (m.authored && (m.aim_best_m < 0 || m.strike.farthest <= 0)) {
+      check.faults.push_back(fmt::format(
+          "{}: strike {} does not say what it aims at, or from where", m.action, m.number + 1));
     }
     if (m.aim_worst_m > kMostAimError) {
       check.faults.push_back(fmt::format("{}: strike {} passes {:.3f} m from the {}", m.action,

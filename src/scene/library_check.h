@@ -34,6 +34,7 @@ struct ActionMeasures {
   std::string source;
 };
 
+// The library's actions in their order, then its changes of stance.
 std::vector<ActionMeasures> measure(const MotionLibrary& library);
 
 // One figure and what it has to be.

@@ -80,6 +80,7 @@ class Reader {
     scene_.duration = std::max<Tick>(1, ticks(value_["duration_s"].get<double>()));
     scene_.seed = value_.value("seed", scene_.seed);
     scene_.ring = value_.value("ring_m", scene_.ring);
+    scene_.stance_switches = value_.value("stance_switches", false);
     read_planner();
     if (auto done = read_library(); !done) return tl::unexpected(done.error());
     for (std::size_t i = 0; i < value_["fighter"].size(); ++i) {
@@ -157,6 +158,7 @@ class Reader {
     fighter.style = *style;
     fighter.style.horizon_s = given.value("horizon_s", fighter.style.horizon_s);
     fighter.team = team_of(given, i);
+    if (given.value("stance", "orthodox") == "southpaw") fighter.stance = Stance::southpaw;
     fighter.placement.x = given["position"][0].get<float>();
     fighter.placement.z = given["position"][1].get<float>();
     fighter.health = static_cast<std::int32_t>(std::lround(given.value("health", 100.0) * 1000.0));
@@ -220,6 +222,13 @@ class Reader {
 };
 
 }  // namespace
+
+bool SceneFile::needs_both_stances() const {
+  return stance_switches ||
+         std::any_of(fighters.begin(), fighters.end(), [](const SceneFighter& fighter) {
+           return fighter.stance == Stance::southpaw;
+         });
+}
 
 Result<BodySpec> read_body(const fs::path& path) {
   const auto document = read_document(path, "body");

@@ -17,12 +17,13 @@ namespace ringcraft {
 struct SceneFighter {
   std::string name;
   BodySpec body;
-  Style style;                      // with the scene's horizon where it gives one
-  int team = 0;                     // fighters of one team do not fight each other
-  Placement placement;              // of the root at tick 0, world
-  std::int32_t health = 100'000;    // thousandths of a point
-  std::filesystem::path character;  // shown in place of the mannequin; empty for none
-  Vec3 shorts{0.7f, 0.1f, 0.1f};    // linear RGB, as in FighterLook
+  Style style;                       // with the scene's horizon where it gives one
+  int team = 0;                      // fighters of one team do not fight each other
+  Stance stance = Stance::orthodox;  // at the start
+  Placement placement;               // of the root at tick 0, world
+  std::int32_t health = 100'000;     // thousandths of a point
+  std::filesystem::path character;   // shown in place of the mannequin; empty for none
+  Vec3 shorts{0.7f, 0.1f, 0.1f};     // linear RGB, as in FighterLook
   Vec3 gloves{0.7f, 0.1f, 0.1f};
   Vec3 skin{0.55f, 0.36f, 0.26f};
 };
@@ -35,7 +36,11 @@ struct SceneFile {
   std::filesystem::path library;  // folder of the motion library
   float ring = 6.0f;              // side of the square ring, m
   std::vector<SceneFighter> fighters;
-  PlanSettings planner;  // ring_half_m is set from `ring`
+  PlanSettings planner;          // ring_half_m is set from `ring`
+  bool stance_switches = false;  // fighters may change their stance
+
+  // Whether the library must hold both stances (both_stances.h).
+  bool needs_both_stances() const;
 };
 
 // Reads a scene: a path, or the bare name of a file in assets/scenes ("duel"). `sets` are

@@ -57,7 +57,8 @@ TEST(Report, HasEveryFieldOfTheDesign) {
                               "/quality/penetration_p99_m",
                               "/quality/penetration_max_m",
                               "/quality/foot_skate_ratio",
-                              "/quality/joint_limit_violations"}) {
+                              "/quality/joint_limit_violations",
+                              "/quality/wrist_speed_p99_mps"}) {
     EXPECT_TRUE(report.contains(json::json_pointer(pointer))) << pointer;
   }
   ASSERT_EQ(report["fighters"].size(), 2u);
@@ -173,6 +174,20 @@ TEST(Quality, ABrokenKneeIsAViolationAtEveryTick) {
   const FightQuality after = quality_of(timeline, bodies(), sample::library());
   EXPECT_GE(after.joint_limit_violations,
             before.joint_limit_violations + timeline.tracks[1].frames.size());
+}
+
+// The hips carry both wrists along at 2 m/s; what answers a hit does not count.
+TEST(Quality, WristSpeedsAreThoseOfChosenActions) {
+  Timeline timeline = standing(2.0f, "idle");
+  timeline.tracks.pop_back();
+  FighterTrack& track = timeline.tracks[0];
+  track.frames.assign(track.frames.size(), track.frames.front());
+  for (std::size_t i = 0; i < track.frames.size(); ++i) {
+    track.frames[i].hips.x += 2.0f * static_cast<float>(i) / kTicksPerSecond;
+  }
+  EXPECT_NEAR(quality_of(timeline, bodies(), sample::library()).wrist_speed_p99_mps, 2, 1e-3);
+  for (Segment& segment : track.segments) segment.kind = Kind::response;
+  EXPECT_EQ(quality_of(timeline, bodies(), sample::library()).wrist_speed_p99_mps, 0);
 }
 
 }  // namespace

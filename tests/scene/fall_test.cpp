@@ -20,6 +20,7 @@ SceneFile scene_with_somebody_behind(std::uint64_t seed, float behind) {
   green.placement = {0, .45f + behind, kPi};
   green.team = blue.team;
   blue.health = 1;
+  blue.style.fight_weight = green.style.fight_weight = 0;  // neither wants to hit anybody
   for (SceneFighter& fighter : scene->fighters) fighter.style.horizon_s = .6;
   return std::move(*scene);
 }
