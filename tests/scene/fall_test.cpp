@@ -10,7 +10,7 @@
 namespace ringcraft {
 namespace {
 
-// Red knocks blue out with a cross, and green, who is on blue's side, stands behind it.
+// Red knocks blue out, and green, who is on blue's side, stands behind it.
 SceneFile scene_with_somebody_behind(std::uint64_t seed, float behind) {
   auto scene = read_scene("brawl3", {"duration_s=2.5", "seed=" + std::to_string(seed)});
   if (!scene) throw std::runtime_error(to_string(scene.error()));
@@ -20,8 +20,6 @@ SceneFile scene_with_somebody_behind(std::uint64_t seed, float behind) {
   green.placement = {0, .45f + behind, kPi};
   green.team = blue.team;
   blue.health = 1;
-  red.style.liked["cross"] = 30;                           // fells straight back
-  blue.style.fight_weight = green.style.fight_weight = 0;  // neither wants to hit anybody
   for (SceneFighter& fighter : scene->fighters) fighter.style.horizon_s = .6;
   return std::move(*scene);
 }
