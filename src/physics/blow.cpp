@@ -160,24 +160,13 @@ StrikeTraits traits_of(StrikeKind kind) {
   return {.25f, 1.3f, 4.0f};
 }
 
-// The line of the blow: the way of the striker, turned into the cone of friction around the
-// surface's inner normal.
-Vec3 line_of(Vec3 velocity, Vec3 inward) {
-  const Vec3 way = normalized_or(velocity, inward);
-  const float across = std::sqrt(std::max(0.0f, 1 - glm::dot(way, inward) * glm::dot(way, inward)));
-  const float along = glm::dot(way, inward);
-  if (along > 0 && across <= kFriction * along) return way;
-  const Vec3 side = normalized_or(way - inward * along, Vec3{});
-  return glm::normalize(inward + kFriction * side);
-}
-
 Blow blow_with(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
                const Pose& target_pose, const Contact& contact, const StrikeTraits& traits) {
   Blow blow;
   blow.part = contact.struck;
   blow.point = contact.point;
   blow.blocked = contact.blocked;
-  const Vec3 line = line_of(contact.velocity, -contact.normal);
+  const Vec3 line = line_of_blow(contact);
   blow.speed = std::max(0.0f, glm::dot(contact.velocity, line));
   // A fist strikes with the knuckles in line: its mass is that at the glove's axis, in the pose
   // given (the contact may lie a few centimetres before it).
@@ -196,6 +185,15 @@ Blow blow_with(const BodyModel& attacker, const Pose& attacker_pose, const BodyM
 }
 
 }  // namespace
+
+Vec3 line_of_blow(const Contact& contact) {
+  const Vec3 inward = -contact.normal, way = normalized_or(contact.velocity, inward);
+  const float along = glm::dot(way, inward);
+  const float across = std::sqrt(std::max(0.0f, 1 - along * along));
+  if (along > 0 && across <= kFriction * along) return way;
+  const Vec3 side = normalized_or(way - inward * along, Vec3{});
+  return glm::normalize(inward + kFriction * side);
+}
 
 float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
                      float tone) {

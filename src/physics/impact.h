@@ -23,6 +23,10 @@ struct Blow {
   bool blocked = false;
 };
 
+// The line of the blow, a unit vector into the struck body: the way of the striker, turned into the
+// cone of friction around the surface's inner normal.
+Vec3 line_of_blow(const Contact& contact);
+
 // J = (1+e) v / (1/m_striker + 1/m_struck) along the line of the blow; a block passes on a part of
 // it.
 Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,

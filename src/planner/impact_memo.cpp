@@ -118,9 +118,7 @@ Vec3 ImpactMemo::point_of(const Capsule& struck, Vec3 line, BlowPlace place) {
 }
 
 ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
-  // Between the striker's way and the surface's inner normal, as the line of the blow is (blow_of).
-  const Vec3 inward = -blow.contact.normal;
-  const Vec3 line = normalized_or(inward + normalized_or(blow.contact.velocity, inward), inward);
+  const Vec3 line = line_of_blow(blow.contact);
   const float speed = std::max(0.0f, glm::dot(blow.contact.velocity, line));
   BlowSteps steps{};
   steps.attacker = blow.attacker;

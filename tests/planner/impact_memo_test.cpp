@@ -118,6 +118,27 @@ TEST_F(ImpactMemoTest, MostBlowsAreAnsweredAsTheUnquantisedStepWould) {
   EXPECT_GT(same_cut, asked * 90 / 100);
 }
 
+// What turns a head is that the blow passes beside its middle.
+TEST_F(ImpactMemoTest, HeadsTurnAsFastAsTheUnquantisedStepSays) {
+  ImpactMemo memo({&tables()});
+  float exact = 0, answered = 0;
+  std::size_t asked = 0;
+  for (Met& one : random_blows(4000, 8)) {
+    if (one.exact.part != Part::head || glm::length(one.exact.impulse) < 2 * kTouchImpulse)
+      continue;
+    one.input.continued = one.continued;
+    exact += impulse_step(tables().body(), one.input).head_spin;
+    answered += memo.answer(one.blow).outcome.head_spin;
+    ++asked;
+  }
+  ASSERT_GE(asked, 20u);
+  if (std::getenv("RINGCRAFT_PRINT") != nullptr)
+    std::printf("[ measured ] %zu blows to the head: %.2f of the spin\n", asked,
+                static_cast<double>(answered / exact));
+  EXPECT_GT(answered, 0.8f * exact);
+  EXPECT_LT(answered, 1.25f * exact);
+}
+
 TEST_F(ImpactMemoTest, StoreChangesNeitherAnswersNorCounts) {
   const auto store = std::make_shared<ImpactStore>();
   ImpactMemo alone({&tables()}), first({&tables()}, {}, store), second({&tables()}, {}, store);
