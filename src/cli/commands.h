@@ -64,6 +64,10 @@ struct InterpolateOptions {
   int wanted = 200;  // outcomes for each family
 };
 
+struct BatchOptions {
+  int count = 10;  // bouts
+};
+
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
 
@@ -81,6 +85,9 @@ int run_library_inspect(const std::string& library, const CommonOptions& options
 int run_library_interpolate(const std::string& library, const InterpolateOptions& asked,
                             const CommonOptions& options);
 int run_library_check(const std::string& library, const CommonOptions& options);
+int run_batch_command(const std::string& scene, const BatchOptions& asked,
+                      const CommonOptions& options);
+int run_merge(const std::vector<std::string>& folders, const CommonOptions& options);
 int run_schema(const std::string& name);
 
 }  // namespace ringcraft

@@ -124,6 +124,23 @@ int run(int argc, char** argv) {
 
   add_study_command(app, add_common, options, code);
 
+  BatchOptions batch_options;
+  CLI::App* batch = app.add_subcommand(
+      "batch", "Many bouts of a scene, a seed each: means and intervals; goes on where it stopped");
+  batch->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
+  batch->add_option("--count", batch_options.count, "Bouts; the first has the scene's seed")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000));
+  add_common(*batch, options);
+  batch->callback([&] { code = run_batch_command(scene, batch_options, options); });
+
+  std::vector<std::string> folders;
+  CLI::App* merge =
+      app.add_subcommand("merge", "Put the bouts of several batches together, as one batch");
+  merge->add_option("DIR", folders, "Folders that `batch` wrote")->required();
+  add_common(*merge, options);
+  merge->callback([&] { code = run_merge(folders, options); });
+
   std::string events_file;
   CLI::App* replay = app.add_subcommand(
       "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");

@@ -69,6 +69,12 @@ std::string text_of(const nlohmann::json& report, const std::filesystem::path& p
 
 }  // namespace
 
+std::string fight_report(const SceneFile& scene, const MotionLibrary& library,
+                         const FightRecord& record) {
+  return report_json(record.timeline, looks_of(scene, record, {}), library, facts_of(scene, record))
+      .dump();
+}
+
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
                                  double wall_seconds, int threads, const FightExtras& extras) {

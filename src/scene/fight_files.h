@@ -28,6 +28,10 @@ struct FightSummary {
   std::string text;    // one line: what to open
 };
 
+// report.json's object on one line.
+std::string fight_report(const SceneFile& scene, const MotionLibrary& library,
+                         const FightRecord& record);
+
 // Writes all files into `folder`; each appears whole or not at all.
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,

@@ -7,6 +7,7 @@
 
 #include "base/document.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/schema.h"
 
 namespace ringcraft {
@@ -261,7 +262,11 @@ Result<SceneFile> read_scene(const std::string& name_or_path,
     if (auto set = set_value(*document, assignment); !set) return tl::unexpected(set.error());
   }
   if (auto valid = checked(*document, "scene"); !valid) return tl::unexpected(valid.error());
-  return Reader(*document).read();
+  auto scene = Reader(*document).read();
+  if (!scene) return scene;
+  document->value.erase("seed");
+  scene->settings = hash_text(document->value.dump());
+  return scene;
 }
 
 }  // namespace ringcraft

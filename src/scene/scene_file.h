@@ -39,6 +39,9 @@ struct SceneFile {
   PlanSettings planner;          // ring_half_m is set from `ring`
   bool stance_switches = false;  // fighters may change their stance
 
+  // Hash of all the file says but the seed; the files it names count by their names.
+  std::uint64_t settings = 0;
+
   // Whether the library must hold both stances (both_stances.h).
   bool needs_both_stances() const;
 };

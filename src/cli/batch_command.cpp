@@ -1,0 +1,81 @@
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "capture/library_file.h"
+#include "cli/commands.h"
+#include "cli/study_command.h"
+#include "scene/batch.h"
+
+namespace ringcraft {
+
+namespace {
+
+constexpr const char* kBouts = "bouts.jsonl";
+
+Result<Batch> bouts_in(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kBouts;
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  return read_bouts(file.string(), *text);
+}
+
+}  // namespace
+
+int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
+                      const CommonOptions& options) {
+  std::vector<std::string> sets = options.sets;
+  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
+  const auto scene = read_scene(scene_name, sets);
+  if (!scene) return fail(scene.error());
+  CommonOptions found = options;
+  if (found.out.empty()) found.out = "out/batch_" + scene->name;
+  const std::filesystem::path folder = found.out;
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  auto loaded = load_library(scene->library);
+  if (!loaded) return fail(loaded.error());
+  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+
+  Batch batch = batch_of(*scene, library);
+  if (std::filesystem::exists(folder / kBouts)) {
+    const auto before = bouts_in(folder);
+    if (!before) return fail(before.error());
+    const auto added = add_bouts(batch, *before, (folder / kBouts).string());
+    if (!added) return fail(added.error());
+  }
+  StudyRun run{options.threads, &interrupted, {}};
+  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const auto kept = [&](const Batch& so_far) {
+    return write_file(folder / kBouts, bouts_jsonl(so_far));
+  };
+  const auto ran = run_batch(batch, library, *scene, asked.count, run, kept);
+  if (!ran) return fail(ran.error());
+  Study study = summary_of(batch);
+  study.interrupted = interrupted;
+  return finish_study(study, 0, found);
+}
+
+int run_merge(const std::vector<std::string>& folders, const CommonOptions& options) {
+  CommonOptions found = options;
+  if (found.out.empty()) found.out = "out/merged";
+  std::optional<Batch> batch;
+  for (const std::string& folder : folders) {
+    const auto more = bouts_in(folder);
+    if (!more) return fail(more.error());
+    if (!batch) {
+      batch = *more;
+      continue;
+    }
+    const auto added = add_bouts(*batch, *more, (std::filesystem::path(folder) / kBouts).string());
+    if (!added) return fail(added.error());
+  }
+  if (const auto made = make_output_folder(found.out); !made) return fail(made.error());
+  const auto written = write_file(std::filesystem::path(found.out) / kBouts, bouts_jsonl(*batch));
+  if (!written) return fail(written.error());
+  return finish_study(summary_of(*batch), 0, found);
+}
+
+}  // namespace ringcraft
