@@ -45,7 +45,8 @@ MotionLibrary sample() {
                         built.machine(),
                         graph,
                         {"gone: no way back"},
-                        {"idle: stands for 0.2 s"}});
+                        {"idle: stands for 0.2 s"},
+                        {}});
 }
 
 std::string rehashed(std::string bytes) {
@@ -222,7 +223,7 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
     const MotionLibrary good = sample();
     std::vector<Action> actions = good.actions();
     change(actions);
-    const MotionLibrary bad({"bad", actions, good.machine(), {}, {}, {}});
+    const MotionLibrary bad({"bad", actions, good.machine(), {}, {}, {}, {}});
     const auto read = library_from_bytes(library_bytes(bad), "x");
     return read ? std::string() : to_string(read.error());
   };
