@@ -28,7 +28,8 @@ std::optional<FighterId> run_to_decision(Bout& bout) {
 }
 
 MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
-  return scene.needs_both_stances() ? both_stances(library, scene.stance_switches) : library;
+  if (!scene.needs_both_stances()) return library;
+  return both_stances(library, scene.stance_switches);
 }
 
 // The main path. Decisions fall when an action ends.

@@ -225,6 +225,10 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
       check.faults.push_back(
           fmt::format("{}: strike {} meets its zone from nowhere", m.action, m.number + 1));
     }
+    if (m.authored && (m.aim_best_m < 0 || m.strike.farthest <= 0)) {
+      check.faults.push_back(fmt::format(
+          "{}: strike {} does not say what it aims at, or from where", m.action, m.number + 1));
+    }
     if (m.aim_worst_m > kMostAimError) {
       check.faults.push_back(fmt::format("{}: strike {} passes {:.3f} m from the {}", m.action,
                                          m.number + 1, m.aim_worst_m, m.strike.aim));
