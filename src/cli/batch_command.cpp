@@ -1,12 +1,11 @@
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/file.h"
-#include "capture/library_file.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "cli/study_command.h"
 #include "scene/batch.h"
 
@@ -27,19 +26,16 @@ Result<Batch> bouts_in(const std::filesystem::path& folder) {
 
 int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
                       const CommonOptions& options) {
-  std::vector<std::string> sets = options.sets;
-  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
-  const auto scene = read_scene(scene_name, sets);
+  const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
   CommonOptions found = options;
   if (found.out.empty()) found.out = "out/batch_" + scene->name;
   const std::filesystem::path folder = found.out;
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
-  auto loaded = load_library(scene->library);
-  if (!loaded) return fail(loaded.error());
-  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
 
-  Batch batch = batch_of(*scene, library);
+  Batch batch = batch_of(*scene, *library);
   if (std::filesystem::exists(folder / kBouts)) {
     const auto before = bouts_in(folder);
     if (!before) return fail(before.error());
@@ -51,7 +47,7 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
   const auto kept = [&](const Batch& so_far) {
     return write_file(folder / kBouts, bouts_jsonl(so_far));
   };
-  const auto ran = run_batch(batch, library, *scene, asked.count, run, kept);
+  const auto ran = run_batch(batch, *library, *scene, asked.count, run, kept);
   if (!ran) return fail(ran.error());
   Study study = summary_of(batch);
   study.interrupted = interrupted;

@@ -8,9 +8,9 @@
 
 #include "base/file.h"
 #include "capture/character.h"
-#include "capture/library_file.h"
 #include "capture/profile.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "scene/fight.h"
 #include "scene/fight_files.h"
 
@@ -49,9 +49,7 @@ Result<ForeignSkeleton> export_skeleton(const std::string& profile) {
 
 int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
               const CommonOptions& options) {
-  std::vector<std::string> sets = options.sets;
-  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
-  const auto scene = read_scene(scene_name, sets);
+  const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("out") / scene->name
@@ -61,13 +59,12 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
-  auto loaded = load_library(scene->library);
-  if (!loaded) return fail(loaded.error());
-  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
 
-  spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library.name(),
-               library.actions().size(), library.dropped().size(), library.hash());
-  for (const std::string& dropped : library.dropped()) spdlog::info("dropped {}", dropped);
+  spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library->name(),
+               library->actions().size(), library->dropped().size(), library->hash());
+  for (const std::string& dropped : library->dropped()) spdlog::info("dropped {}", dropped);
 
   FightOptions fight_options;
   fight_options.threads = options.threads;
@@ -78,7 +75,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
     };
   }
   const auto begin = std::chrono::steady_clock::now();
-  const FightRecord record = simulate_fight(library, *scene, fight_options);
+  const FightRecord record = simulate_fight(*library, *scene, fight_options);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) fmt::print(stderr, "\n");
 
@@ -88,7 +85,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
   const auto summary =
-      write_fight(folder, *scene, library, record, wall.count(), options.threads, extras);
+      write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
   fmt::print("{}\n", options.json ? summary->report : summary->text);
   return record.interrupted ? 130 : 0;

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "capture/canonical.h"
 #include "capture/library_file.h"
+#include "cli/scene_inputs.h"
 #include "scene/scene_file.h"
 #include "scene/study_bouts.h"
 #include "scene/study_clips.h"
@@ -42,10 +43,9 @@ constexpr StudyEntry kStudies[] = {
 };
 
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
-  std::vector<std::string> sets = options.sets;
-  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
-  if (study.duration_s) sets.push_back(fmt::format("duration_s={}", *study.duration_s));
-  return read_scene(study.what.empty() ? "duel" : study.what.front(), sets);
+  std::vector<std::string> more;
+  if (study.duration_s) more.push_back(fmt::format("duration_s={}", *study.duration_s));
+  return scene_with(study.what.empty() ? "duel" : study.what.front(), options, more);
 }
 
 bool is_file(const std::string& name) {
@@ -178,24 +178,22 @@ int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  auto loaded = load_library(scene->library);
-  if (!loaded) return fail(loaded.error());
-  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
   const StudyRun run = study_run(options);
-  return finish_study(penetration_study(library, *scene, {}, run), 0, options);
+  return finish_study(penetration_study(*library, *scene, {}, run), 0, options);
 }
 
 int run_search_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  auto loaded = load_library(scene->library);
-  if (!loaded) return fail(loaded.error());
-  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
   const StudyRun run = study_run(options);
   SearchStudy search;
   if (study.count) search.decisions = static_cast<std::size_t>(*study.count);
   if (study.bouts) search.warm_up_bouts = *study.bouts;
-  const Study found = search_study(library, *scene, search, run);
+  const Study found = search_study(*library, *scene, search, run);
   const int code = finish_study(found, 0, options);
   if (!options.json) fmt::print("{}", study_text(found.timing));
   return code;

@@ -1,26 +1,23 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
-#include "capture/library_file.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "scene/tree_file.h"
 #include "scene/tree_svg.h"
 
 namespace ringcraft {
 
 int run_tree(const std::string& scene_name, const TreeOptions& tree, const CommonOptions& options) {
-  std::vector<std::string> sets = options.sets;
-  if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
-  const auto scene = read_scene(scene_name, sets);
+  const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
-  auto loaded = load_library(scene->library);
-  if (!loaded) return fail(loaded.error());
-  const MotionLibrary library = library_for(*scene, std::move(*loaded));
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
 
   FightOptions fight_options;
   fight_options.threads = options.threads;
   fight_options.interrupted = &interrupted;
-  const auto found = tree_at(library, *scene, tree.at_s, tree.nodes, fight_options);
+  const auto found = tree_at(*library, *scene, tree.at_s, tree.nodes, fight_options);
   if (interrupted) return 130;
   if (!found) return fail(found.error());
 

@@ -129,10 +129,6 @@ bool has_response(const MotionLibrary& library, ResponseKind kind, int steps) {
   });
 }
 
-}  // namespace
-
-namespace {
-
 ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   const Skeleton& skeleton = body.skeleton;
   const Placement& end = action.clip.root_at(action.length());

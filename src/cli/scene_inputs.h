@@ -1,0 +1,20 @@
+#pragma once
+// What every command that runs a scene reads first.
+
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "motion/library.h"
+#include "scene/scene_file.h"
+
+namespace ringcraft {
+
+// The scene of that name or path with the command's --set, --seed and `more`, in this order.
+Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
+                             const std::vector<std::string>& more = {});
+
+// The scene's library, as its fighters need it (library_for).
+Result<MotionLibrary> library_of(const SceneFile& scene);
+
+}  // namespace ringcraft
