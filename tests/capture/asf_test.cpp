@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/temporary_folder.h"
 #include "capture/amc.h"
 #include "capture/bvh.h"
 #include "capture/read_capture.h"
@@ -128,17 +129,14 @@ TEST(Asf, LimitsHold) {
 
 class CaptureFolder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "ringcraft_capture_folder";
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path put(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
+    std::ofstream(folder() / name, std::ios::binary) << text;
+    return folder() / name;
   }
-  std::filesystem::path folder_;
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
+ private:
+  TemporaryFolder folder_;
 };
 
 TEST_F(CaptureFolder, AMotionFindsTheSkeletonBesideIt) {
@@ -152,9 +150,9 @@ TEST_F(CaptureFolder, AMotionFindsTheSkeletonBesideIt) {
   ASSERT_FALSE(lost);
   EXPECT_THAT(to_string(lost.error()), HasSubstr("14.asf"));
   CaptureSource source;
-  source.skeleton = folder_ / "13.asf";
+  source.skeleton = folder() / "13.asf";
   source.frames_per_second = 60;
-  const auto named = read_capture(folder_ / "14_01.amc", source);
+  const auto named = read_capture(folder() / "14_01.amc", source);
   ASSERT_TRUE(named);
   EXPECT_NEAR(named->frame_seconds, 1.0 / 60, 1e-9);
 }

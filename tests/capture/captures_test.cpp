@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/temporary_folder.h"
 #include "capture/gltf.h"
 #include "capture/library_builder.h"
 #include "capture/read_capture.h"
@@ -133,7 +134,8 @@ TEST_F(Captures, WristsAndAnklesGoTheCapturedWayAndFeetSkateNoMoreInEveryTake) {
 // The manifest of docs/captures.md: one capture of each format that needs a key of its own.
 TEST_F(Captures, AManifestMayNameAnyFormat) {
   const auto absolute = std::filesystem::absolute(folder_).lexically_normal();
-  const auto manifest = std::filesystem::path(::testing::TempDir()) / "ringcraft_any_format.toml";
+  const TemporaryFolder scratch;
+  const auto manifest = scratch.path() / "any_format.toml";
   const auto folder = absolute.string();
   std::ofstream(manifest)
       << "name = \"my_gym\"\n"
@@ -157,7 +159,6 @@ TEST_F(Captures, AManifestMayNameAnyFormat) {
              "zone = \"head\", at = 0.4}]\n";
   std::vector<std::string> notes;
   const auto actions = collect_actions(manifest, &notes);
-  std::filesystem::remove(manifest);
   ASSERT_TRUE(actions) << to_string(actions.error());
   ASSERT_EQ(actions->size(), 3u);
   EXPECT_EQ((*actions)[0].name, "cross");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/temporary_folder.h"
 #include "capture/profile.h"
 #include "small_files.h"
 
@@ -194,7 +195,8 @@ TEST(Gltf, HostileFilesAreRefusedWithAReason) {
 }
 
 TEST(Gltf, BuffersOutsideOfTheFolderAreNotRead) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "ringcraft_gltf";
+  const TemporaryFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
   std::filesystem::create_directories(folder / "inside");
   GltfDraft draft = small_gltf();
   const auto write = [&](const std::string& uri) {
@@ -210,7 +212,6 @@ TEST(Gltf, BuffersOutsideOfTheFolderAreNotRead) {
   EXPECT_FALSE(write("%2e%2e/outside.bin"));
   EXPECT_FALSE(write((folder / "outside.bin").string()));
   EXPECT_FALSE(write("missing.bin"));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "capture/bvh.h"
 #include "capture/cut.h"
 #include "capture/filmstrip.h"
@@ -21,25 +22,17 @@ const std::filesystem::path kBoxing = "/usr/share/assimp/models/BVH/Boxing_Toes.
 
 class Manifest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("ringcraft_manifest_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   Result<std::vector<Action>> collect(const std::string& text,
                                       std::vector<std::string>* notes = nullptr) {
-    std::ofstream(folder_ / "library.toml") << text;
-    return collect_actions(folder_ / "library.toml", notes);
+    std::ofstream(folder_.path() / "library.toml") << text;
+    return collect_actions(folder_.path() / "library.toml", notes);
   }
   static std::string boxing(const std::string& action) {
     return "name = \"test\"\n[[capture]]\npath = \"" + kBoxing.string() +
            "\"\nmirror = true\nguard_at = 3.05\n[[capture.action]]\n" + action;
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Manifest, AnAbsentCaptureIsAnErrorThatNamesThePackage) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "capture/library_builder.h"
 #include "capture/library_responses.h"
 #include "motion/synthetic.h"
@@ -20,15 +21,7 @@ using ::testing::SizeIs;
 
 class LibraryFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("ringcraft_library_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   Skeleton skeleton_ = canonical_skeleton();
 };
 
@@ -40,7 +33,7 @@ TEST_F(LibraryFile, IsLoadedWhereverALibraryIsNamed) {
        action_of("step", Kind::transition, test::step_clip(skeleton_, {0, 0, 0.2f}))},
       {"a note"}, settings);
   EXPECT_FALSE(built.graph().transitions.empty());
-  const std::filesystem::path file = folder_ / "two.ringlib";
+  const std::filesystem::path file = folder_.path() / "two.ringlib";
   ASSERT_TRUE(write_library(built, file));
   const auto loaded = load_library(file);
   ASSERT_TRUE(loaded) << to_string(loaded.error());
@@ -50,21 +43,21 @@ TEST_F(LibraryFile, IsLoadedWhereverALibraryIsNamed) {
 }
 
 TEST_F(LibraryFile, IsKnownByItsFirstBytesNotByItsName) {
-  std::ofstream(folder_ / "text.ringlib") << "name = \"kickboxing\"\n";
-  const auto text = load_library(folder_ / "text.ringlib");
+  std::ofstream(folder_.path() / "text.ringlib") << "name = \"kickboxing\"\n";
+  const auto text = load_library(folder_.path() / "text.ringlib");
   ASSERT_FALSE(text);
   EXPECT_THAT(text.error().what, HasSubstr("not a motion library file"));
-  std::ofstream(folder_ / "damaged", std::ios::binary) << "ringlib\nxyz";
-  const auto damaged = load_library(folder_ / "damaged");
+  std::ofstream(folder_.path() / "damaged", std::ios::binary) << "ringlib\nxyz";
+  const auto damaged = load_library(folder_.path() / "damaged");
   ASSERT_FALSE(damaged);
   EXPECT_THAT(damaged.error().what, HasSubstr("cut off"));
 }
 
 TEST_F(LibraryFile, AFolderOfCapturesIsToldHowToBecomeALibrary) {
-  const auto folder = load_library(folder_);
+  const auto folder = load_library(folder_.path());
   ASSERT_FALSE(folder);
   EXPECT_THAT(folder.error().remedy, HasSubstr("ringcraft library build"));
-  const auto built = build_library(folder_);
+  const auto built = build_library(folder_.path());
   ASSERT_FALSE(built);
   EXPECT_THAT(built.error().what, HasSubstr("no action was found"));
 }

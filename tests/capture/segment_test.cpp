@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "capture/library_builder.h"
 #include "capture/segment_truth.h"
 #include "capture/sheet.h"
@@ -135,8 +136,8 @@ TEST(Segmentation, AListedCutTakesThePlaceOfWhatIsFoundInItsTime) {
 TEST(Segmentation, AManifestFindsActionsAndListedOnesOverrideThem) {
   SKIP_WITHOUT_CAPTURES();
   const std::filesystem::path capture = mocap_folder() / "debian/Boxing_Toes.bvh";
-  const std::filesystem::path manifest =
-      std::filesystem::path(::testing::TempDir()) / "segment_manifest.toml";
+  const TemporaryFolder scratch;
+  const std::filesystem::path manifest = scratch.path() / "segment_manifest.toml";
   ASSERT_TRUE(write_file(manifest, "name = \"found\"\n[[capture]]\npath = \"" + capture.string() +
                                        "\"\nsegment = true\n[[capture.action]]\nname = "
                                        "\"my_cross\"\nkind = \"attack\"\nbegin = 8.82\nend = "
@@ -161,9 +162,8 @@ TEST(Segmentation, AManifestFindsActionsAndListedOnesOverrideThem) {
 
 TEST(Segmentation, AFolderGivesOrthodoxActionsWithDistinctNamesAndSaysWhatItPassedOver) {
   SKIP_WITHOUT_CAPTURES();
-  const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / "segment_folder";
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
   std::filesystem::create_directories(folder / "deeper");
   const auto copy = [&](const char* from, const char* to) {
     std::filesystem::copy_file(mocap_folder() / from, folder / to);
@@ -189,7 +189,6 @@ TEST(Segmentation, AFolderGivesOrthodoxActionsWithDistinctNamesAndSaysWhatItPass
                                                           ::testing::HasSubstr("broken.bvh"))));
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("the same motion as")));
   EXPECT_FALSE(collect_folder_actions(folder / "nowhere", nullptr));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Segmentation, AnythingShortOrStillIsNoAction) {

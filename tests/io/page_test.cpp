@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "io/outputs.h"
 
 namespace ringcraft {
@@ -24,22 +25,13 @@ constexpr const char* kTemplate =
 // A folder of its own that RINGCRAFT_VIEWER names for the length of a test.
 class PageTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("ringcraft_page_" + std::to_string(::getpid()) + test->name());
-    std::filesystem::create_directories(folder_);
-    ::setenv("RINGCRAFT_VIEWER", folder_.c_str(), 1);
-  }
-  void TearDown() override {
-    ::unsetenv("RINGCRAFT_VIEWER");
-    std::filesystem::remove_all(folder_);
-  }
+  void SetUp() override { ::setenv("RINGCRAFT_VIEWER", folder_.path().c_str(), 1); }
+  void TearDown() override { ::unsetenv("RINGCRAFT_VIEWER"); }
   void put_template(const std::string& text) {
-    ASSERT_TRUE(write_file(folder_ / "page.html", text));
+    ASSERT_TRUE(write_file(folder_.path() / "page.html", text));
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 // What stands between `<script id="ID">` and the first `</script` after it, as an HTML parser
@@ -108,7 +100,7 @@ TEST_F(PageTest, AMissingTemplateSaysHowToBuildIt) {
   const auto html = fight_html("", "", {});
   ASSERT_FALSE(html);
   EXPECT_EQ(html.error().kind, ErrorKind::input);
-  EXPECT_EQ(html.error().file, (folder_ / "page.html").string());
+  EXPECT_EQ(html.error().file, (folder_.path() / "page.html").string());
   EXPECT_THAT(html.error().remedy, HasSubstr("npm ci && npm run build"));
 }
 

@@ -5,15 +5,17 @@
 #include <fstream>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "planner/evaluation.h"
 
 namespace ringcraft {
 namespace {
 
-std::filesystem::path written(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+Result<Style> read_written(const std::string& text) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "own_style.toml";
   std::ofstream(path) << text;
-  return path;
+  return read_style(path);
 }
 
 TEST(StyleTest, EveryPublishedStyleReads) {
@@ -28,11 +30,11 @@ TEST(StyleTest, EveryPublishedStyleReads) {
 }
 
 TEST(StyleTest, FieldsAreRead) {
-  const auto style = read_style(written("own_style.toml",
-                                        "leaf = \"paper\"\nhorizon_s = 1\ncandidates = 9\n"
-                                        "learning = 0.5\nfatigue = 2\ninjury = 3\n"
-                                        "aim_error_deg = 4\nspeed_error = 0.05\n"
-                                        "[strikes]\nhook = 2\n[liked]\njab = -0.5\n"));
+  const auto style = read_written(
+      "leaf = \"paper\"\nhorizon_s = 1\ncandidates = 9\n"
+      "learning = 0.5\nfatigue = 2\ninjury = 3\n"
+      "aim_error_deg = 4\nspeed_error = 0.05\n"
+      "[strikes]\nhook = 2\n[liked]\njab = -0.5\n");
   ASSERT_TRUE(style) << to_string(style.error());
   EXPECT_EQ(style->name, "own_style");
   EXPECT_EQ(style->leaf, LeafValue::paper);
@@ -49,7 +51,7 @@ TEST(StyleTest, FieldsAreRead) {
 }
 
 TEST(StyleTest, UnknownKeyIsAnErrorThatNamesTheNearest) {
-  const auto style = read_style(written("typo.toml", "caution = 1\nattack_bonsu = 2\n"));
+  const auto style = read_written("caution = 1\nattack_bonsu = 2\n");
   ASSERT_FALSE(style);
   const std::string message = to_string(style.error());
   EXPECT_NE(message.find("attack_bonus"), std::string::npos) << message;
@@ -57,8 +59,8 @@ TEST(StyleTest, UnknownKeyIsAnErrorThatNamesTheNearest) {
 }
 
 TEST(StyleTest, ValueOutOfRangeIsAnError) {
-  EXPECT_FALSE(read_style(written("far.toml", "horizon_s = 60\n")));
-  EXPECT_FALSE(read_style(written("word.toml", "caution = \"much\"\n")));
+  EXPECT_FALSE(read_written("horizon_s = 60\n"));
+  EXPECT_FALSE(read_written("caution = \"much\"\n"));
 }
 
 TEST(EvaluationTest, LocationIsBestAtThePreferredDistanceFacingTheOpponent) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "fight/synthetic_library.h"
 #include "physics/penetration.h"
 #include "scene/study_clips.h"
@@ -40,7 +41,8 @@ TEST(StudyTest, CsvQuotesWhatHoldsACommaOrAQuote) {
 }
 
 TEST(StudyTest, FilesHoldTheSameRowsAndTheClockStandsApart) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "small_study";
+  const TemporaryFolder scratch;
+  const auto folder = scratch.path() / "small_study";
   ASSERT_TRUE(make_output_folder(folder));
   ASSERT_TRUE(write_study(folder, small_study()));
   const auto json = nlohmann::json::parse(*read_file(folder / "study.json"));
