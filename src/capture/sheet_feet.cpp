@@ -101,7 +101,7 @@ void FootMotion::make_angles(const SheetAction& action, const std::vector<SheetK
     const Span& span = spans_[step_index++];
     events.push_back({span.lift, {}, {}});
     if (!step.land) continue;
-    const float turned = step.at ? step.at->z : degrees(end.yaw);
+    const float turned = step.at ? step.at->z : degrees(end.yaw) + full_turns(action);
     events.push_back({*step.land, guard_yaw + turned, guard_heel});
   }
   // (a key at the landing says how the foot comes down)

@@ -102,6 +102,7 @@ struct SheetAction {
   Placement end_at;  // m, rad
   std::optional<Side>
       pivot;        // this foot stays: the end placement follows from its place and the yaw
+  int turns = 0;    // whole ones of the body by its end, positive to the own left; the root stays
   float chain = 0;  // s between the links pelvis, chest and arm
   float bounce_hz = 0, bounce = 0;  // Hz, amplitude as a fraction of height
   float sway = 0;                   // of the hands, standard deviation as a fraction of height

@@ -54,6 +54,12 @@ std::optional<Vec3> off_line(Vec3 from, Vec3 to, Vec3 point) {
   return glm::normalize(off);
 }
 
+// Channels that a body turned once about reads 360 degrees on.
+bool is_yaw(Channel channel) {
+  return channel == Channel::pelvis_yaw || channel == Channel::chest_yaw ||
+         channel == Channel::lead_foot_yaw || channel == Channel::rear_foot_yaw;
+}
+
 float eased(float from, float to, float x) {
   const float u = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
   return u * u * (3 - 2 * u);
@@ -72,7 +78,11 @@ std::vector<SheetKey> merged_keys(const SheetAction& action) {
   }
   if (keys.back().t < action.length - 1e-4f) keys.push_back({action.length, {}});
   for (std::size_t i = 0; i < kChannelCount; ++i) {
-    if (!keys.back().values[i]) keys.back().values[i] = action.end.values[i];
+    if (keys.back().values[i]) continue;
+    keys.back().values[i] = action.end.values[i];
+    if (keys.back().values[i] && is_yaw(static_cast<Channel>(i))) {
+      keys.back().values[i]->x += full_turns(action);
+    }
   }
   return keys;
 }
@@ -144,14 +154,15 @@ TrunkMotion::TrunkMotion(const SheetAction& action, const std::vector<SheetKey>&
       if (!value && edge) pelvis_lean_.add(t, *key.values[index(Channel::lean)] * 0.35f);
     }
   }
-  if (given(keys, Channel::head)) {
+  if (given(keys, Channel::head) || action.turns != 0) {
     for (const SheetKey& key : keys) {
       const bool edge = key.t <= 0 || key.t >= action.length - 1e-4f;
       const auto& value = key.values[index(Channel::head)];
       if (value) head_.add(key.t, *value);
       if (!value && edge) {
-        head_.add(key.t, head_angles(key.t, *key.values[index(Channel::lean)],
-                                     key.values[index(Channel::chest_yaw)]->x));
+        const Vec3 turned(key.t > 0 ? full_turns(action) : 0, 0, 0);
+        const float chest_yaw = key.values[index(Channel::chest_yaw)]->x - turned.x;
+        head_.add(key.t, turned + head_angles(key.t, *key.values[index(Channel::lean)], chest_yaw));
       }
     }
   }

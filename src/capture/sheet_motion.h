@@ -17,6 +17,11 @@ std::vector<SheetKey> merged_keys(const SheetAction& action);
 // Where the root ends, m and rad: as written, or where the pivot foot leaves it.
 Placement end_placement(const SheetAction& action);
 
+// What the yaws of the body have grown by at the end of a spin that goes on to the stance, degrees.
+constexpr float full_turns(const SheetAction& action) {
+  return 360.0f * static_cast<float>(action.turns);
+}
+
 // The root's placement at every tick.
 std::vector<Placement> root_track(const SheetAction& action, const std::vector<SheetKey>& keys);
 

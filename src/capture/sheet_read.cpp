@@ -184,6 +184,7 @@ class Reader {
       result.end_at = {at.x * kCanonicalHeight, at.y * kCanonicalHeight, radians(at.z)};
     }
     if (table.contains("pivot")) result.pivot = foot_named(table["pivot"]);
+    result.turns = table.value("turns", 0);
     result.chain = table.value("chain", 0.0f);
     result.sway = table.value("sway", 0.007f);
     result.bounce_hz = 2.2f;

@@ -305,6 +305,21 @@ TEST(SheetMotion, AKickLeavesTheOtherHandBeforeTheFace) {
   EXPECT_GE(kicks, 4);
 }
 
+TEST(SheetMotion, ASpinGoesOnTurningToTheStance) {
+  for (const char* name : {"spinning_back_kick", "spinning_backfist"}) {
+    const std::vector<WorldPose> world = worlds(library().at(name));
+    float turned = 0, back = 0;  // rad: in all, and against the spin
+    for (std::size_t i = 1; i < world.size(); ++i) {
+      const float turn =
+          wrapped_angle(heading_of(world[i].rotation[0]) - heading_of(world[i - 1].rotation[0]));
+      turned += turn;
+      back += std::max(0.0f, turn);
+    }
+    EXPECT_NEAR(degrees(turned), -360, 3) << name;
+    EXPECT_LT(degrees(back), 5) << name;
+  }
+}
+
 TEST(SheetMotion, NoJointPops) {
   // Captured boxing at 60 Hz: velocity jumps of 2.0-2.7 m/s at the 99.9 % quantile, 5.4 in a kata.
   // A kick's foot at the published 11-14 m/s is twice as fast as the captured ones.
