@@ -7,8 +7,7 @@
 #include <cstdlib>
 
 #include "../tests/fight/synthetic_library.h"
-#include "base/hash.h"
-#include "scene/fight.h"
+#include "scene/bench.h"
 
 using namespace ringcraft;
 
@@ -27,12 +26,7 @@ int main(int count, char** arguments) {
   FightOptions options;
   options.threads = count > 1 ? std::max(1, std::atoi(arguments[1])) : 1;
   const FightRecord record = simulate_fight(library, scene, options);
-  std::uint64_t nodes = 0, leaves = 0;
-  for (const Event& event : record.timeline.events) {
-    nodes += event.decision.nodes;
-    leaves += event.decision.leaves;
-  }
-  fmt::print("signature nodes {} leaves {} impacts {} memo {} timeline {}\n", nodes, leaves,
-             record.counts.impacts, record.counts.memo_misses, hash_name(record.timeline.hash()));
-  return nodes > 0 ? 0 : 4;
+  const FightSignature signature = signature_of(record);
+  fmt::print("{}\n", signature_text(signature));
+  return signature.nodes > 0 ? 0 : 4;
 }
