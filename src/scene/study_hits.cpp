@@ -139,8 +139,11 @@ HitsStudy hits_study(const MotionLibrary& library, const HitsSettings& settings,
   using Part = void (*)(const HitsAsked&, HitRows&);
   HitsStudy out;
   for (const Part part : {strike_rows, balance_rows, answer_rows, law_rows, robustness_rows}) {
-    if (run.stopped()) break;
+    const HitRows before = rows;
     part(asked, rows);
+    if (!run.stopped()) continue;
+    rows = before;  // of what was not finished nothing is said
+    break;
   }
   out.study.interrupted = run.stopped();
   out.study.name = "hits";

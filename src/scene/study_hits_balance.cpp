@@ -52,6 +52,7 @@ void no_step_rows(const HitsAsked& asked, HitRows& rows) {
   };
   std::vector<Pair> found(kCount);
   run_tasks(kCount, asked.run.threads, [&](std::size_t i) {
+    if (asked.run.stopped()) return;
     const Zone& zone = kZones[i / 8];
     const Pose& pose = stances[i / 4 % 2];
     const float way = kWays[i % 4];
@@ -85,7 +86,7 @@ void step_rows(const HitsAsked& asked, HitRows& rows) {
     std::array<double, 3> derived;  // fore, aft, side, for a point mass
   };
   for (const Row& row : {Row{1, {109, 78, 66}}, Row{2, {132, 94, 76}}, Row{3, {142, 101, 79}}}) {
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < 3 && !asked.run.stopped(); ++d) {
       const float held = threshold([&](float impulse) {
         return severity(impulse_step(
                    body, StillHit(body, pose, Part::chest, kWays[d], impulse).input)) <= row.steps;
@@ -125,6 +126,7 @@ void agreement_rows(const HitsAsked& asked, HitRows& rows) {
   const auto count = static_cast<std::size_t>(asked.settings.count);
   std::vector<std::array<bool, 2>> held(count);  // said, simulated
   run_tasks(count, asked.run.threads, [&](std::size_t i) {
+    if (asked.run.stopped()) return;
     const RandomPush push(derived_seed(asked.settings.seed, "agreement", i));
     const StillHit hit(body, stances[push.stance], push.part, push.way, push.impulse, push.tone);
     held[i] = {impulse_step(body, hit.input).margin <= 0, !simulate_standing(body, hit.input).fell};

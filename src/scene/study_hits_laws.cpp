@@ -72,6 +72,7 @@ void ladder_row(const HitsAsked& asked, const BodyModel& body, HitRows& rows) {
   std::vector<int> less(kStruck.size() * stances.size() * 8);
   std::vector<std::string> where(less.size());
   run_tasks(less.size(), asked.run.threads, [&](std::size_t i) {
+    if (asked.run.stopped()) return;
     const Part part = kStruck[i / 16];
     const Pose& pose = stances[i / 8 % 2];
     const float way = static_cast<float>(i % 8) * kPi / 4 + .01f;

@@ -247,8 +247,10 @@ void strike_rows(const HitsAsked& asked, HitRows& rows) {
     if (action.kind == Kind::attack && action.strikes.size() == 1) attacks.emplace_back(i);
   }
   std::vector<std::optional<Landed>> tried(attacks.size());
-  run_tasks(attacks.size(), asked.run.threads,
-            [&](std::size_t i) { tried[i] = landed(asked.library, attacks[i]); });
+  run_tasks(attacks.size(), asked.run.threads, [&](std::size_t i) {
+    if (!asked.run.stopped()) tried[i] = landed(asked.library, attacks[i]);
+  });
+  if (asked.run.stopped()) return;
   std::vector<Landed> all;
   for (const auto& one : tried) {
     if (one) all.push_back(*one);
