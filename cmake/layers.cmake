@@ -65,11 +65,12 @@ function(ringcraft_layer name)
   endforeach()
 endfunction()
 
-# The command `ringcraft` from src/cli.
+# The command `ringcraft` from src/cli: the library ringcraft_cli, and its main.
 function(ringcraft_command)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/cli/*.cpp)
-  if(sources)
-    add_executable(ringcraft ${sources})
-    target_link_libraries(ringcraft PRIVATE ringcraft_scene ringcraft_capture)
-  endif()
+  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/cli/main.cpp)
+  add_library(ringcraft_cli STATIC ${sources})
+  target_link_libraries(ringcraft_cli PUBLIC ringcraft_scene ringcraft_capture)
+  add_executable(ringcraft ${CMAKE_SOURCE_DIR}/src/cli/main.cpp)
+  target_link_libraries(ringcraft PRIVATE ringcraft_cli)
 endfunction()

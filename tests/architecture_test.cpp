@@ -47,6 +47,7 @@ const std::vector<Home> kHomes{
     {"toml++", "toml(\\+\\+/|plusplus).*", "base/[^/]+\\.cpp", 1},
     {"valijson", "valijson/.*", "base/[^/]+\\.cpp", 1},
     {"CLI11", "CLI/.*", "cli/[^/]+\\.cpp", 9},
+    {"Boost.Beast", "boost/(asio|beast)[/.].*", "cli/[^/]+\\.cpp", 1},
 };
 
 struct Include {

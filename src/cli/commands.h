@@ -21,6 +21,7 @@ struct CommonOptions {
   bool json = false;
   bool quiet = false;
   int verbose = 0;
+  bool summary_to_stderr = false;  // stdout is for something else
 };
 
 struct FightCommandOptions {
@@ -68,8 +69,36 @@ struct BatchOptions {
   int count = 10;  // bouts
 };
 
+struct BenchOptions {
+  double duration_s = 10;  // of the fight
+  int rounds = 1;
+};
+
+struct ServeOptions {
+  std::string folder = "out";
+  int port = 8765;  // 0: any that is free
+};
+
+struct ViewOptions {
+  std::string what = "duel";  // folder, page or scene
+  bool print = false;         // only the address
+};
+
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
+
+// From here on SIGINT and SIGTERM set `interrupted`; a second one ends the process at once.
+void watch_signals();
+
+// While one lives, SIGINT and SIGTERM end the process at once, with exit code 130: for work that
+// has nothing finished to keep. No file may be written meanwhile.
+class EndAtSignal {
+ public:
+  EndAtSignal();
+  ~EndAtSignal();
+  EndAtSignal(const EndAtSignal&) = delete;
+  EndAtSignal& operator=(const EndAtSignal&) = delete;
+};
 
 // Prints one line on stderr and returns the error's exit code.
 int fail(const Error& error);
@@ -89,5 +118,9 @@ int run_batch_command(const std::string& scene, const BatchOptions& asked,
                       const CommonOptions& options);
 int run_merge(const std::vector<std::string>& folders, const CommonOptions& options);
 int run_schema(const std::string& name);
+int run_bench_command(const std::string& scene, const BenchOptions& asked,
+                      const CommonOptions& options);
+int run_serve(const ServeOptions& serve, const CommonOptions& options);
+int run_view(const ViewOptions& view, const CommonOptions& options);
 
 }  // namespace ringcraft

@@ -87,7 +87,8 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const auto summary =
       write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
-  fmt::print("{}\n", options.json ? summary->report : summary->text);
+  fmt::print(options.summary_to_stderr ? stderr : stdout, "{}\n",
+             options.json ? summary->report : summary->text);
   return record.interrupted ? 130 : 0;
 }
 

@@ -70,7 +70,10 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   settings.judge = joint_limit_judge();
   settings.threads = options.threads;
   const auto begin = std::chrono::steady_clock::now();
-  const auto library = build_library(library_source(build.source), settings);
+  const auto library = [&] {
+    const EndAtSignal nothing_to_keep;
+    return build_library(library_source(build.source), settings);
+  }();
   if (!library) return fail(library.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const std::filesystem::path file = options.out.empty()

@@ -162,6 +162,7 @@ void print_table(const LibraryCheck& check) {
 }  // namespace
 
 int run_library_check(const std::string& name, const CommonOptions& options) {
+  const EndAtSignal no_file_is_written;
   const auto library = load_library(name);
   if (!library) return fail(library.error());
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library));

@@ -163,7 +163,10 @@ int run_library_interpolate(const std::string& name, const InterpolateOptions& a
   const Judge judge = joint_limit_judge();
   std::vector<std::string> notes;
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<Action> made = interpolated(skeleton, actions, settings, judge, notes);
+  const std::vector<Action> made = [&] {
+    const EndAtSignal nothing_to_keep;
+    return interpolated(skeleton, actions, settings, judge, notes);
+  }();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   std::map<Outcomes, FamilyFigures> all;
   nlohmann::json rows = nlohmann::json::array();

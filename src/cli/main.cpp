@@ -1,7 +1,6 @@
 // The command `ringcraft`.
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <thread>
 
@@ -11,22 +10,12 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
+#include "cli/completion.h"
 #include "cli/study_command.h"
 
 namespace ringcraft {
 
-std::atomic<bool> interrupted = false;
-
-int fail(const Error& error) {
-  fmt::print(stderr, "ringcraft: {}\n", to_string(error));
-  return static_cast<int>(error.kind);
-}
-
 namespace {
-
-void on_signal(int) {
-  interrupted = true;
-}
 
 void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
@@ -39,6 +28,13 @@ void add_common(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print the result as JSON on stdout");
   command.add_flag("-q,--quiet", options.quiet, "No progress");
   command.add_flag("-v,--verbose", options.verbose, "Say more");
+}
+
+int run_completion(const std::string& shell) {
+  const auto script = completion_script(shell);
+  if (!script) return fail(script.error());
+  fmt::print("{}", *script);
+  return 0;
 }
 
 int run(int argc, char** argv) {
@@ -195,9 +191,54 @@ int run(int argc, char** argv) {
 
   std::string schema_name;
   CLI::App* schema = app.add_subcommand("schema", "Print a published JSON Schema");
-  schema->add_option("NAME", schema_name, "scene, style, body, manifest, sheet or profile")
+  schema->add_option("SCHEMA", schema_name, "scene, style, body, manifest, sheet or profile")
       ->required();
   schema->callback([&] { code = run_schema(schema_name); });
+
+  BenchOptions bench_options;
+  CLI::App* bench = app.add_subcommand(
+      "bench", "What a fight costs on this machine; a signature that no machine changes");
+  bench->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
+  bench->add_option("--duration", bench_options.duration_s, "Length of the fight, s")
+      ->check(CLI::Range(0.5, 3600.0));
+  bench->add_option("--rounds", bench_options.rounds, "How often the fight is fought")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  add_common(*bench, options);
+  bench->callback([&] { code = run_bench_command(scene, bench_options, options); });
+
+  ServeOptions serve_options;
+  CLI::App* serve =
+      app.add_subcommand("serve", "Show a folder of results in a browser, on this machine only");
+  serve->add_option("DIR", serve_options.folder, "Folder of results");
+  serve->add_option("--port", serve_options.port, "Port of 127.0.0.1; 0 takes any that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+  add_common(*serve, options);
+  serve->callback([&] { code = run_serve(serve_options, options); });
+
+  ViewOptions view_options;
+  CLI::App* view =
+      app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
+  view->add_option("FIGHT", view_options.what, "Folder of a result, page, or scene");
+  view->add_flag("--print", view_options.print, "Print the address, open nothing");
+  add_common(*view, options);
+  view->callback([&] { code = run_view(view_options, options); });
+
+  std::string shell;
+  CLI::App* completion =
+      app.add_subcommand("completion", "Print the script that completes commands in a shell");
+  completion->add_option("SHELL", shell, "Whose script")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->callback([&] { code = run_completion(shell); });
+  // What the scripts ask: `ringcraft complete-words ringcraft WORD...`, the last being typed.
+  CLI::App* words = app.add_subcommand("complete-words")->group("")->prefix_command();
+  words->callback([&] {
+    std::vector<std::string> typed = words->remaining();
+    if (!typed.empty()) typed.erase(typed.begin());
+    fmt::print("{}", completion_lines(complete(app, typed)));
+  });
 
   // Logs go to stderr, results to stdout or files.
   app.parse_complete_callback([&] {
@@ -218,8 +259,7 @@ int run(int argc, char** argv) {
 }  // namespace ringcraft
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, ringcraft::on_signal);
-  std::signal(SIGTERM, ringcraft::on_signal);
+  ringcraft::watch_signals();
   try {
     return ringcraft::run(argc, argv);
   } catch (const std::exception& error) {

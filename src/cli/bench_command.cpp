@@ -1,0 +1,46 @@
+// `ringcraft bench`: what a fight costs on this machine, and a signature that no machine changes.
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/scene_inputs.h"
+#include "scene/bench.h"
+
+namespace ringcraft {
+
+int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
+                      const CommonOptions& options) {
+  const auto scene =
+      scene_with(scene_name, options, {fmt::format("duration_s={}", asked.duration_s)});
+  if (!scene) return fail(scene.error());
+  const std::filesystem::path folder = options.out.empty() ? "out/bench" : options.out;
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
+  StudyRun run{options.threads, &interrupted, {}};
+  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+
+  const Bench bench = run_bench(*library, *scene, asked.rounds, run);
+  const nlohmann::json same = bench_json(bench, *scene, *library);
+  const nlohmann::json clock = bench_timing_json(bench, options.threads);
+  const std::pair<const char*, std::string> files[] = {{"bench.json", same.dump(1) + "\n"},
+                                                       {"timing.json", clock.dump(1) + "\n"}};
+  for (const auto& [name, bytes] : files) {
+    if (const auto written = write_file(folder / name, bytes); !written)
+      return fail(written.error());
+  }
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::json{{"bench", same}, {"timing", clock}}.dump(1));
+  } else {
+    fmt::print("{}{}\n", bench_text(clock), signature_text(bench.signature));
+  }
+  if (bench.differs) {
+    fmt::print(stderr, "ringcraft: rounds of one fight differ; please report this\n");
+    return 1;
+  }
+  return bench.interrupted ? 130 : 0;
+}
+
+}  // namespace ringcraft

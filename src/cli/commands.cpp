@@ -1,0 +1,44 @@
+#include "cli/commands.h"
+
+#include <csignal>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace ringcraft {
+
+std::atomic<bool> interrupted = false;
+
+namespace {
+
+constexpr int kInterrupted = 130;
+std::atomic<int> end_at_signal = 0;
+
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+void on_signal(int) {
+  if (end_at_signal > 0 || interrupted.exchange(true)) std::_Exit(kInterrupted);
+}
+
+}  // namespace
+
+void watch_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+EndAtSignal::EndAtSignal() {
+  ++end_at_signal;
+  if (interrupted) std::_Exit(kInterrupted);
+}
+
+EndAtSignal::~EndAtSignal() {
+  --end_at_signal;
+}
+
+int fail(const Error& error) {
+  fmt::print(stderr, "ringcraft: {}\n", to_string(error));
+  return static_cast<int>(error.kind);
+}
+
+}  // namespace ringcraft
