@@ -89,9 +89,9 @@ Answer file_answer(Served&& served, const Request& request) {
   if (!range.empty() && request[http::field::if_range].empty())
     asked = range_answer({range.data(), range.size()}, size);
   if (asked.kind == RangeAnswer::Kind::outside) {
-    answer = plain_answer(http::status::range_not_satisfiable, "beyond the end", false);
-    answer.head.set(http::field::content_range, fmt::format("bytes */{}", size));
-    return answer;
+    Answer told = plain_answer(http::status::range_not_satisfiable, "beyond the end", false);
+    told.head.set(http::field::content_range, fmt::format("bytes */{}", size));
+    return told;
   }
   const bool part = asked.kind == RangeAnswer::Kind::part;
   set_common(answer, part ? http::status::partial_content : http::status::ok, served.type);
@@ -196,10 +196,10 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   void send(Answer&& answer, bool head_only) {
-    answer_ = std::move(answer);
-    answer_.head.keep_alive(!answer_.close);
-    if (head_only) answer_.text.clear(), answer_.left = 0;
-    serializer_.emplace(answer_.head);
+    answer_.emplace(std::move(answer));
+    answer_->head.keep_alive(!answer_->close);
+    if (head_only) answer_->text.clear(), answer_->left = 0;
+    serializer_.emplace(answer_->head);
     stream_.expires_after(milliseconds(shared_.limits.chunk_s));
     http::async_write_header(stream_, *serializer_,
                              [self = shared_from_this()](error_code fault, std::size_t) {
@@ -209,16 +209,16 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   void send_body() {
-    if (!answer_.text.empty()) {
-      write(net::buffer(answer_.text), true);
-    } else if (answer_.left > 0) {
+    if (!answer_->text.empty()) {
+      write(net::buffer(answer_->text), true);
+    } else if (answer_->left > 0) {
       const std::size_t wanted =
-          static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, answer_.left));
-      const std::size_t got = answer_.file.read(answer_.next, chunk_.data(), wanted);
+          static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, answer_->left));
+      const std::size_t got = answer_->file.read(answer_->next, chunk_.data(), wanted);
       if (got == 0) return;  // the file became shorter: the connection ends, and the client sees it
-      answer_.next += got;
-      answer_.left -= got;
-      write(net::buffer(chunk_.data(), got), answer_.left == 0);
+      answer_->next += got;
+      answer_->left -= got;
+      write(net::buffer(chunk_.data(), got), answer_->left == 0);
     } else {
       finish();
     }
@@ -234,8 +234,8 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   void finish() {
-    answer_.file = OpenFile();
-    if (!answer_.close) return read();
+    answer_->file = OpenFile();
+    if (!answer_->close) return read();
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     stream_.expires_after(milliseconds(kSwallow_s));
@@ -256,7 +256,7 @@ class Session : public std::enable_shared_from_this<Session> {
   Shared& shared_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::optional<http::response_serializer<http::empty_body>> serializer_;
-  Answer answer_;
+  std::optional<Answer> answer_;
   std::array<char, kChunk> chunk_{};
   std::uint64_t swallowed_ = 0;
 };

@@ -215,7 +215,7 @@ Result<ServedFolder> ServedFolder::open(const fs::path& folder) {
                        "name a folder of results; `ringcraft fight` makes one in out");
   if (!fs::is_directory(root, failed))
     return input_error(folder.string(), "", "not a folder", "name the folder that holds it");
-  fs::directory_iterator(root, failed);
+  const fs::directory_iterator readable(root, failed);
   if (failed) return input_error(folder.string(), "", failed.message(), "check its permissions");
   return ServedFolder(root);
 }
