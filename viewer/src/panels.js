@@ -139,7 +139,19 @@ export class Panels {
         <button data-form="tree" aria-pressed="${this.form === 'tree'}">Tree</button><button data-form="lines" aria-pressed="${this.form === 'lines'}">Lines</button></div>
       ${lines.length ? picture : '<p class="none">No line was kept.</p>'}
       <p class="key"><span class="step forced">forced</span> an answer that physics chose: one edge out, not a choice. Scores in points.</p>
-      ${pruned.length ? `<h3>Pruned</h3><table class="pruned">${pruned.join('')}</table>` : ''}`;
+      ${pruned.length ? `<h3>Pruned</h3><table class="pruned">${pruned.join('')}</table>` : ''}
+      <p class="key">Counted over the whole tree.${this.treeCommand(event)}</p>`;
+  }
+
+  // What writes this decision's tree out. Its time is cut, not rounded: the first decision from there on is this one,
+  // or the other fighter's of the same tick, and then there is no such command.
+  treeCommand(event) {
+    const { header, decisions } = this.story;
+    const before = decisions[decisions.indexOf(event) - 1];
+    if (before && event.t - before.t < 1e-6) return '';
+    const seed = header.seed === undefined ? '' : ` --seed ${header.seed}`;
+    const command = `ringcraft tree ${header.scene ?? 'SCENE'}${seed} --at ${Math.floor(event.t * 1000) / 1000}`;
+    return ` Each pruned branch by name, and the terms of each score: <code>${escapeHtml(command)}</code>`;
   }
 
   makeReport() {

@@ -6,6 +6,7 @@ const FULL_HEALTH = 100;  // points, where the header does not say
 
 export class Story {
   constructor(header, events, names) {
+    this.header = header;
     this.events = events;
     this.names = names;
     this.full = names.map((_, i) => header.fighters?.[i]?.health ?? FULL_HEALTH);

@@ -3,6 +3,7 @@ import { escapeHtml, plain } from './data.js';
 
 const COLUMN = 132;
 const ROW = 27;
+const MARGIN = 56;  // left of the first moves: what each is worth
 const MOST_LINES = 40;
 
 // {name, forced, actor}, one per move of a line.
@@ -24,7 +25,7 @@ function joined(lines, chosen) {
       if (i === chosen) child.chosen = true;
       node = child;
     }
-    node.scores = [...(node.scores ?? []), { score: line.score, chosen: i === chosen }];
+    node.scores = [...(node.scores ?? []), line.score];
   });
   return root;
 }
@@ -39,17 +40,23 @@ function place(node, state) {
   }
 }
 
+// The score of the best line through a node.
+function worth(node) {
+  const below = node.children.map(worth);
+  return Math.max(...(node.scores ?? []), ...below);
+}
+
 export function treeSvg(event, colours, score) {
   const lines = (event.lines ?? []).slice(0, MOST_LINES);
   const root = joined(lines, event.chosen ?? 0);
   const state = { row: 0, depth: 0 };
   place(root, state);
-  const width = (state.depth + 1) * COLUMN + 70;
+  const width = MARGIN + (state.depth + 1) * COLUMN - 10;
   const height = state.row * ROW + 6;
   const edges = [];
   const boxes = [];
   const draw = (node) => {
-    const x = 4 + node.depth * COLUMN;
+    const x = MARGIN + node.depth * COLUMN;
     const y = 4 + node.row * ROW;
     if (node.depth >= 0) {
       const colour = colours[node.actor % colours.length];
@@ -58,9 +65,8 @@ export function treeSvg(event, colours, score) {
       boxes.push(`<g class="node${node.forced ? ' forced' : ''}${node.chosen ? ' chosen' : ''}"><title>${escapeHtml(text)}${node.forced ? ' (forced)' : ''}</title>` +
         `<rect x="${x}" y="${y}" width="${COLUMN - 20}" height="20" rx="4"/><rect class="actor" x="${x}" y="${y}" width="3.5" height="20" rx="1.5" fill="${colour}"/>` +
         `<text x="${x + 9}" y="${y + 14}">${escapeHtml(shown)}</text></g>`);
-      if (node.scores) {
-        const best = node.scores[0];
-        boxes.push(`<text class="score${best.chosen ? ' chosen' : ''}" x="${x + COLUMN - 14}" y="${y + 14}">${escapeHtml(score(best.score))}</text>`);
+      if (node.depth === 0) {
+        boxes.push(`<text class="score${node.chosen ? ' chosen' : ''}" x="${x - 8}" y="${y + 14}">${escapeHtml(score(worth(node)))}</text>`);
       }
     }
     for (const child of node.children) {

@@ -202,8 +202,39 @@ test('a decision shows its lines and what was pruned', async () => {
   assert.equal(await tree.locator('.node.chosen').count() > 0, true);
   const words = await page.locator('#panel-decision').innerText();
   for (const rule of ['unanswered hit', 'back turned', 'penetration', 'candidates']) assert.ok(words.includes(rule), rule);
+  // What each first move is worth stands in sight, whatever the length of its line.
+  const shown = await tree.evaluate((svg) => {
+    const box = svg.parentNode.getBoundingClientRect();
+    return [...svg.querySelectorAll('.score')].map((text) => {
+      const at = text.getBoundingClientRect();
+      return { text: text.textContent, seen: at.left >= box.left && at.right <= box.right, chosen: text.classList.contains('chosen') };
+    });
+  });
+  const decision = await page.evaluate((t) => window.ringcraft.events.filter((e) => e.type === 'decision' && e.t === t).at(-1), mark);
+  const best = Math.max(...decision.lines.map((line) => line.score));
+  assert.ok(shown.length > 0 && shown.every((one) => one.seen), JSON.stringify(shown));
+  assert.equal(shown.filter((one) => one.chosen).length, 1);
+  assert.equal(Number(shown[0].text.replace('−', '-')), Number(best.toFixed(2)));
   await page.locator('[data-form=lines]').click();
   assert.ok((await page.locator('#panel-decision .lines li').count()) > 0);
+  await page.locator('[data-tab=events]').click();
+});
+
+test('a decision that no other shares its tick with says how its tree is written out', async () => {
+  const times = await page.evaluate(() => window.ringcraft.events.filter((e) => e.type === 'decision').map((e) => e.t));
+  const alone = times.find((t) => times.filter((other) => other === t).length === 1);
+  const shared = times.find((t) => times.filter((other) => other === t).length > 1);
+  await page.locator('[data-tab=decision]').click();
+  if (alone !== undefined) {
+    await call('seek', alone + 0.001);
+    const words = await page.locator('#panel-decision').innerText();
+    const at = Number(/ringcraft tree \S+.* --at ([\d.]+)/.exec(words)?.[1]);
+    assert.ok(at <= alone && alone - at < 0.0011, `${alone}: ${words}`);
+  }
+  if (shared !== undefined) {
+    await call('seek', shared);
+    assert.ok(!(await page.locator('#panel-decision').innerText()).includes('ringcraft tree'), `${shared}`);
+  }
   await page.locator('[data-tab=events]').click();
 });
 
