@@ -181,7 +181,10 @@ std::string bench_text(const nlohmann::json& timing) {
   StudyTable table{{"measure", "value", "unit"}, {}};
   const auto row = [&](const char* measure, const char* pointer, const char* unit) {
     const auto value = timing.at(nlohmann::json::json_pointer(pointer)).get<double>();
-    table.rows.push_back({std::string(measure), value, std::string(unit)});
+    const std::string text = value <= 0     ? "-"  // nothing of it happened
+                             : value < 1000 ? fmt::format("{:.4g}", value)
+                                            : fmt::format("{:.0f}", value);
+    table.rows.push_back({std::string(measure), text, std::string(unit)});
   };
   row("fight", "/realtime_factor", "x real time");
   row("decisions", "/decisions_per_s", "1/s");

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # end_by_signal.sh SECONDS OUT COMMAND...: after so many seconds SIGTERM, and in a second run SIGINT,
-# must end the command with exit code 130, and leave no half-written file in OUT. It has 40 s for it:
+# must end the command with exit code 130, and leave no half-written file in OUT. It has 120 s for it:
 # what is under way is finished first, and a decision takes seconds on a busy machine.
 set -u
 seconds=$1 out=$2
@@ -18,11 +18,13 @@ for signal in TERM INT; do
     continue
   fi
   kill -s "$signal" "$process"
-  (sleep 40; kill -s KILL "$process" 2>/dev/null) >/dev/null 2>&1 &
-  watch=$!
+  for ((tenths = 0; tenths < 1200; ++tenths)); do
+    kill -0 "$process" 2>/dev/null || break
+    sleep 0.1
+  done
+  kill -s KILL "$process" 2>/dev/null
   wait "$process"
   code=$?
-  kill "$watch" 2>/dev/null
   [ "$code" -eq 130 ] || fault "$signal: exit code $code, not 130"
   left=$(find "$out" -name '*.part*' 2>/dev/null)
   [ -z "$left" ] || fault "$signal: left $left"
