@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/ik.h"
+#include "motion/joint_turns.h"
 
 namespace ringcraft {
 
@@ -13,8 +14,8 @@ constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the 
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
-constexpr float kFastFoot = 0.045f;       // s per m/s that a step has to take off
-constexpr float kLongestStep = 0.35f;     // s: for that
+constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take off
+constexpr float kLongestStep = 0.45f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
 constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
@@ -46,75 +47,6 @@ float soft_positive(float x, float width) {
   return (x + width) * (x + width) / (4 * width);
 }
 
-// The rotation vector of q that lies nearest to `reference`: a turn of a little more than half a
-// circle does not become one the other way.
-Vec3 rotation_vector_near(Quat q, Vec3 reference) {
-  const Vec3 v = rotation_vector(q);
-  const float angle = glm::length(v);
-  if (angle < 1e-4f) return v;
-  const Vec3 around = v * (1 - 2 * kPi / angle);
-  return glm::distance2(around, reference) < glm::distance2(v, reference) ? around : v;
-}
-
-// The decay of a rotation that was `before` and `shown` in the last two ticks and from now on
-// follows `now` and `after`. The velocity is that of the rotation vector itself, not the difference
-// of angular velocities: these differ where the offset is large.
-Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds) {
-  const Quat spin = shown * glm::inverse(before);
-  const Quat carried = glm::normalize(spin * shown);
-  const Quat carried_on = glm::normalize(spin * carried);
-  const Vec3 value = rotation_vector(carried * glm::inverse(now));
-  const Vec3 next = rotation_vector_near(carried_on * glm::inverse(after), value);
-  return {value, (next - value) / kTickSeconds, seconds};
-}
-
-// A ball joint about the middle of its range: its swing across the limb, and its turn about it.
-// What lies between two turns inside the joint's range is inside it in these numbers, which is not
-// so along the shortest turn.
-struct BallJoint {
-  Quat middle;
-  Vec3 along;  // the limb, at the joint's middle: a unit axis
-};
-// The humerus: forward, out and down. The thigh: 45 degrees of flexion and 7 of abduction.
-BallJoint ball_joint(const Limb& limb) {
-  if (limb.root == leg(Side::left).root || limb.root == leg(Side::right).root) {
-    return {glm::angleAxis(radians(7), kForward) * glm::angleAxis(radians(-45), kLeft), kUp};
-  }
-  return {rotation_between(kLeft, Vec3{.55f, -.35f, .75f}), kLeft};
-}
-Quat as_left(Side side, Quat q) {
-  return side == Side::left ? q : Quat(q.w, q.x, -q.y, -q.z);
-}
-// The turn along the limb's axis, the swing across it.
-Vec3 ball_turns(const BallJoint& joint, Side side, Quat rotation) {
-  const Quat q = glm::conjugate(joint.middle) * as_left(side, rotation);
-  const float turn = wrapped_angle(2 * std::atan2(glm::dot({q.x, q.y, q.z}, joint.along), q.w));
-  const Vec3 swing = rotation_vector(q * glm::conjugate(glm::angleAxis(turn, joint.along)));
-  return swing + joint.along * (turn - glm::dot(swing, joint.along));
-}
-Quat ball_rotation(const BallJoint& joint, Side side, Vec3 turns) {
-  const float turn = glm::dot(turns, joint.along);
-  const Quat swing = from_rotation_vector(turns - joint.along * turn);
-  return as_left(side, glm::normalize(joint.middle * swing * glm::angleAxis(turn, joint.along)));
-}
-
-// As rotation_decay, of a limb's root.
-Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
-                 const Pose& now, const Pose& after, float seconds) {
-  const std::size_t j = index(limb.root);
-  const BallJoint joint = ball_joint(limb);
-  const auto turns = [&](const Pose& pose) { return ball_turns(joint, side, pose.rotation[j]); };
-  constexpr float kFastest = 20 * kTickSeconds;  // rad a tick: no joint turns faster
-  const auto moved = [&](const Pose& a, const Pose& b) {
-    const Vec3 change = turns(b) - turns(a);
-    const float turn = glm::dot(change, joint.along);  // about the limb, it may pass half a turn
-    return glm::clamp(change + joint.along * (wrapped_angle(turn) - turn), Vec3(-kFastest),
-                      Vec3(kFastest));
-  };
-  const Vec3 going = moved(before, shown), clip_going = moved(now, after);
-  return {turns(shown) + going - turns(now), (going - clip_going) / kTickSeconds, seconds};
-}
-
 // How far a limb reaches, as a share of its length.
 float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
   return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
@@ -138,17 +70,6 @@ Quat toes_on_floor(const Skeleton& skeleton, Quat toes, float ball_height) {
 }
 
 }  // namespace
-
-Decay::Decay(Vec3 value, Vec3 velocity, float seconds)
-    : start_(value), velocity_(velocity), seconds_(seconds) {}
-
-Vec3 Decay::value() const {
-  // x(s) = x0 (1 - 10 s^3 + 15 s^4 - 6 s^5) + v0 T (s - 6 s^3 + 8 s^4 - 3 s^5),  s = t / T
-  if (done()) return {};
-  const float s = age_ / seconds_, s3 = s * s * s;
-  return start_ * (1 - s3 * (10 - s * (15 - 6 * s))) +
-         velocity_ * seconds_ * (s - s3 * (6 - s * (8 - 3 * s)));
-}
 
 Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
     : skeleton_(body), settings_(settings) {}
@@ -199,12 +120,17 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   after_simulation_ = simulated_;
   const Vec3 moved = shown_.hips - before_.hips;
   const Vec3 clip_moved = after.hips - now.hips;
-  hips_ = {shown_.hips + moved - now.hips, (moved - clip_moved) / kTickSeconds, seconds};
+  const Vec3 hips_velocity = (moved - clip_moved) / kTickSeconds;
+  hips_ = {shown_.hips + moved - now.hips, hips_velocity, seconds,
+           simulated_ ? stopping_seconds(hips_velocity) : seconds};
   sink_ = {};  // what the hips had sunk is part of their offset now
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
-                                  after.rotation[j], seconds);
+    rotation_[j] =
+        rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j], after.rotation[j],
+                       seconds, simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
+  flexion_.fill({});
+  if (simulated_) stitch_hinges(now, after);
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
@@ -218,11 +144,15 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     const auto i = static_cast<std::size_t>(side);
     hands_[i] = shoulders_[i] = hip_joints_[i] = {};
     if (feet_[i].by_joints) {
-      hip_joints_[i] = root_decay(side, leg(side), before_, shown_, now, after, seconds);
+      hip_joints_[i] = root_decay(side, leg(side), before_, shown_, now, after, seconds,
+                                  lever_of(skeleton_, leg(side).root));
     }
     // After a simulation arms go by their joints: led by the hand, their elbows would turn over.
     if (simulated_) {
-      shoulders_[i] = root_decay(side, arm(side), before_, shown_, now, after, seconds);
+      seam_shoulder_[i] =
+          ball_turns(ball_joint(arm(side)), side, shown_.rotation[index(arm(side).root)]);
+      shoulders_[i] = root_decay(side, arm(side), before_, shown_, now, after, seconds,
+                                 lever_of(skeleton_, arm(side).root));
       continue;
     }
     hands_[i] = {shown.position[hand] + hand_moved - world_now.position[hand],
@@ -284,6 +214,13 @@ void Playback::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
   foot.rise = std::max({0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2,
                         after_simulation_ ? clearing_rise(foot.offset, foot.rise_seconds) : 0.0f});
   foot.rise_age = 0;
+  if (!after_simulation_) return;
+  // The arc's sin^2 takes 2 (pi / T)^2 of its height in acceleration.
+  constexpr float kMostAcceleration = 25;  // m/s2
+  const float seconds = kPi * std::sqrt(2 * foot.rise / kMostAcceleration);
+  if (seconds <= foot.rise_seconds) return;
+  foot.rise_seconds = seconds;
+  foot.offset = {offset, velocity, seconds};
 }
 
 // The foot stands where it is from this tick on, and presses down.
@@ -303,6 +240,7 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
+  if (after_simulation_) bend_hinges(clip_pose, pose);
   turn_roots(clip_pose, pose);
   place_feet(clip_pose, contacts, pose);
   place_hands(clip_pose, pose);
@@ -323,6 +261,7 @@ const Pose& Playback::next_simulated(const Pose& pose) {
   sink_ = {};
   hands_ = {};
   shoulders_ = hip_joints_ = {};
+  flexion_.fill({});
   rotation_.fill({});
   show(pose);
   simulated_ = true;
@@ -534,15 +473,69 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
   }
 }
 
+// After a simulation knees and elbows go by their flexion, and apart from it by what turns beside
+// the hinge: as one turn, that of a bent elbow goes anywhere.
+void Playback::stitch_hinges(const Pose& now, const Pose& after) {
+  for (const Side side : kSides) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      const std::size_t j = index(limb.middle);
+      const auto bent = [&](const Pose& pose) {
+        return flexion(skeleton_, limb, pose.rotation[j]);
+      };
+      const auto beside = [&](const Pose& pose) {
+        return glm::angleAxis(-bent(pose), hinge_axis(limb)) * pose.rotation[j];
+      };
+      const float lever = lever_of(skeleton_, limb.middle);
+      const float was = bent(before_), is = bent(shown_), clip = bent(now);
+      const float velocity = (is - was - (bent(after) - clip)) / kTickSeconds;
+      seam_flexion_[j] = is;
+      flexion_[j] = {Vec3{2 * is - was - clip, 0, 0}, Vec3{velocity, 0, 0}, blend_seconds_,
+                     stopping_seconds(Vec3{velocity * lever, 0, 0})};
+      rotation_[j] = rotation_decay(beside(before_), beside(shown_), beside(now), beside(after),
+                                    blend_seconds_, lever);
+    }
+  }
+}
+
+// A knee or an elbow that carries its speed on may pass straight, or fold: it slows before.
+void Playback::bend_hinges(const Pose& clip_pose, Pose& pose) {
+  for (const Side side : kSides) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      const std::size_t j = index(limb.middle);
+      Decay& offset = flexion_[j];
+      if (offset.done()) continue;
+      const Vec3 axis = hinge_axis(limb);
+      const float own = flexion(skeleton_, limb, clip_pose.rotation[j]);
+      const float gone = 1 - offset.seconds_left() / blend_seconds_;
+      const float seam = seam_flexion_[j];
+      // A leg that is nearly straight would bend at once where its foot is lifted.
+      const float straight = limb.middle == leg(side).middle ? radians(-8) : 0.0f;
+      float bent = own + offset.value().x;
+      bent = -slowed(-bent, {-own, -seam, gone}, radians(-16), straight);
+      bent = slowed(bent, {own, seam, gone}, radians(130), radians(148));
+      const Quat beside = from_rotation_vector(rotation_[j].value()) * glm::angleAxis(-own, axis) *
+                          clip_pose.rotation[j];
+      pose.rotation[j] = glm::normalize(glm::angleAxis(bent, axis) * beside);
+      offset.step(kTickSeconds);
+    }
+  }
+}
+
 void Playback::turn_roots(const Pose& clip_pose, Pose& pose) {
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     for (Decay* offset : {&shoulders_[i], &hip_joints_[i]}) {
       if (offset->done()) continue;
-      const Limb limb = offset == &shoulders_[i] ? arm(side) : leg(side);
+      const bool shoulder = offset == &shoulders_[i];
+      const Limb limb = shoulder ? arm(side) : leg(side);
       const BallJoint joint = ball_joint(limb);
       const std::size_t j = index(limb.root);
-      const Vec3 turns = ball_turns(joint, side, clip_pose.rotation[j]) + offset->value();
+      const Vec3 own = ball_turns(joint, side, clip_pose.rotation[j]);
+      Vec3 turns = own + offset->value();
+      if (shoulder) {
+        const float gone = 1 - offset->seconds_left() / blend_seconds_;
+        turns = shoulder_slowed(joint, turns, own, seam_shoulder_[i], gone);
+      }
       pose.rotation[j] = ball_rotation(joint, side, turns);
       offset->step(kTickSeconds);
     }

@@ -11,6 +11,7 @@
 #include <array>
 
 #include "motion/clip.h"
+#include "motion/decay.h"
 
 namespace ringcraft {
 
@@ -23,24 +24,6 @@ struct PlaybackSettings {
   float restep_distance = 0.06f;
   float restep_seconds = 0.22f;
   float restep_lift = 0.05f;  // m: height of that step
-};
-
-// An offset that decays from a start value and velocity to nothing. Quintic: velocity and
-// acceleration end at zero, the acceleration starts at zero (Bollo 2018, with a0 = 0).
-class Decay {
- public:
-  Decay() = default;
-  // value in m or rad, velocity per second, seconds > 0
-  Decay(Vec3 value, Vec3 velocity, float seconds);
-
-  Vec3 value() const;
-  bool done() const { return age_ >= seconds_; }
-  float seconds_left() const { return done() ? 0.0f : seconds_ - age_; }
-  void step(float dt) { age_ += dt; }
-
- private:
-  Vec3 start_{}, velocity_{};
-  float seconds_ = 0, age_ = 0;
 };
 
 class Playback {
@@ -110,6 +93,8 @@ class Playback {
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Side side, Quat clip_turn);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
+  void stitch_hinges(const Pose& now, const Pose& after);
+  void bend_hinges(const Pose& clip_pose, Pose& pose);
   void turn_roots(const Pose& clip_pose, Pose& pose);
   void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
@@ -122,10 +107,13 @@ class Playback {
   bool after_simulation_ = false;  // the last seam was one from a simulated pose
   float blend_seconds_ = 0.24f;    // of the last seam
   std::array<Decay, kJointCount> rotation_;
+  std::array<Decay, kJointCount> flexion_;         // of knees and elbows about their hinge (x, rad)
+  std::array<float, kJointCount> seam_flexion_{};  // rad: the same at the seam
   Decay hips_;
   Sink sink_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
   std::array<Decay, 2> shoulders_;        // of arms that go by their joints instead
+  std::array<Vec3, 2> seam_shoulder_{};   // rad: how those were turned at the seam
   std::array<Decay, 2> hip_joints_;       // of legs that do
   std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   std::array<Foot, 2> feet_;

@@ -4,19 +4,21 @@
 #include <cmath>
 
 #include "motion/ik.h"
+#include "motion/joint_turns.h"
 #include "physics/impact_frame.h"
 #include "physics/response.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kReflex = .12f;    // s: no reflex is faster; until then the struck body gives
-constexpr float kFirm = .30f;      // s: full tone again
-constexpr float kIntoClip = .20f;  // s over which the aim goes from the cut action to the clip
-constexpr float kMeetBy = .45f;    // s: by then the simulated motion has met the clip
-constexpr float kMeetFrom = .12f;  // s: from here on hips and legs do; sooner they would slide
-constexpr float kProtect = .10f;   // s: from here on a falling body protects itself
-constexpr float kLimpTone = .03f;  // of a knocked-out body; 0 looks like a sack
+constexpr float kReflex = .12f;      // s: no reflex is faster; until then the struck body gives
+constexpr float kFirm = .30f;        // s: full tone again
+constexpr float kIntoClip = .20f;    // s over which the aim goes from the cut action to the clip
+constexpr float kMeetBy = .45f;      // s: by then the simulated motion has met the clip
+constexpr float kMeetFrom = .12f;    // s: from here on hips and legs do; sooner they would slide
+constexpr float kArmsMeetBy = .30f;  // s: as light as they are, they swing fastest
+constexpr float kProtect = .10f;     // s: from here on a falling body protects itself
+constexpr float kLimpTone = .03f;    // of a knocked-out body; 0 looks like a sack
 constexpr float kLyingTone = .08f;
 constexpr float kLetDownTone = .3f;
 constexpr float kFade = .6f;  // s after the landing in which the muscles let go
@@ -322,8 +324,14 @@ class Shown {
     Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
     // Trunk and arms set out at once: what flies off at the hand-over cannot be caught in a frame.
     const Pose above = mix(pose, clip(tick), smooth(now / kMeetBy));
+    const Pose arms = mix(pose, clip(tick), smooth(now / kArmsMeetBy));
     for (std::size_t j = index(Joint::spine); j < index(Joint::left_upper_leg); ++j) {
-      met.rotation[j] = above.rotation[j];
+      met.rotation[j] = j >= index(Joint::left_shoulder) ? arms.rotation[j] : above.rotation[j];
+    }
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t j = index(arm(side).root);
+      met.rotation[j] = mix_root(side, arm(side), pose.rotation[j], clip(tick).rotation[j],
+                                 smooth(now / kArmsMeetBy));
     }
     return frame_.out(mend_(met));
   }

@@ -14,21 +14,26 @@ namespace {
 constexpr float kArmsReach =
     2.4f;  // m between the hips of canonical bodies: beyond it none can touch
 constexpr float kLimitTolerance = radians(2);
+constexpr float kSlowsFrom = radians(-12);  // of a joint's range: there it slows, unless its clip
+constexpr float kUpright = .6f;             // of the leg's length: hips lower than that lie
+constexpr float kSlowsBy = radians(60) * kTickSeconds;  // rad a tick: at which that sets in
 
-// The pose with its joints inside their ranges, on the side on which they were a tick `earlier`;
-// feet that are held stay where they are as far as the ranges of the leg allow.
-Pose limited(const BodyModel& body, const Pose& pose, FootContacts held, const Pose& earlier) {
-  Pose result = within_limits(body, pose, kLimitTolerance, earlier);
+// The pose with its joints inside their ranges, on the side on which they were a tick `earlier`,
+// slowing from where they are `free` to go; feet of a body that is up stay where they are as far as
+// the ranges of the leg allow.
+Pose limited(const BodyModel& body, const Pose& pose, const Pose& earlier,
+             const LimitExcesses& free) {
+  Pose result = within_limits(body, pose, kLimitTolerance, earlier, free);
+  if (pose.hips.y < kUpright * body.skeleton.leg_length()) return result;
   const WorldPose before = world_pose(body.skeleton, pose);
   for (const Side side : {Side::left, Side::right}) {
     const Limb limb = leg(side);
     const WorldPose after = world_pose(body.skeleton, result);
     const Vec3 ankle = before.position[index(limb.end)];
-    if (!held.of(side) || glm::distance(ankle, after.position[index(limb.end)]) < 1e-4f) continue;
-    const Vec3 knee_forward = after.rotation[index(limb.root)] * kForward;
-    solve_limb(body.skeleton, limb, {ankle, present_pole(after, limb, knee_forward), 1.0f}, result);
+    if (glm::distance(ankle, after.position[index(limb.end)]) < 1e-5f) continue;
+    move_limb_end(body.skeleton, limb, ankle, 1.0f, result);
   }
-  return within_limits(body, result, kLimitTolerance, earlier);
+  return within_limits(body, result, kLimitTolerance, earlier, free);
 }
 
 }  // namespace
@@ -37,7 +42,21 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
     : library_(library), repetitions_(repetitions) {
   for (BodyModel& body : bodies) {
     Playback playback(body.skeleton);
-    Actor actor{std::move(body), std::move(playback), {}, {}, {}, {}, 0, false, {}, {}, {}, {}};
+    Actor actor{std::move(body),
+                std::move(playback),
+                {},
+                {},
+                {},
+                {},
+                0,
+                false,
+                false,
+                {},
+                {},
+                {},
+                {},
+                {},
+                {}};
     actors_.push_back(std::move(actor));
   }
 }
@@ -81,6 +100,7 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
     last.end = std::min(last.end, launch.start);
   }
   actor.track.segments.push_back({launch, action.name, action.kind});
+  actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
   if (actor.simulated.empty()) {
     actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
@@ -114,16 +134,36 @@ void Stage::show(Tick tick) {
       actor.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
     }
     actor.unhindered = actor.playback.shown();
+    free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     amend(actor, actor.kept_out);
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }
 }
 
+// How far each joint may go in this tick before it slows: as far as its clip does, from a seam on
+// as far as it was shown there. Legs bear the body: theirs do not slow.
+void Stage::free_joints(Actor& actor, Tick tick) const {
+  const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
+  if (actor.was_simulated) actor.free = limit_excesses(actor.playback.shown());
+  const bool seam = actor.was_simulated || actor.seam;
+  actor.seam = false;
+  for (std::size_t i = 0; i < kLimitCount; ++i) {
+    const float own = leg_of_limit(i) ? kLimitTolerance : std::max(kSlowsFrom, clip[i]);
+    float& more = actor.free_more[i];
+    if (seam) more = std::max(kSlowsFrom, actor.free[i]) - own;
+    more -= std::clamp(more, -kSlowsBy, kSlowsBy);
+    actor.free[i] = own + more;
+  }
+}
+
 void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
   actor.kept_out = offsets;
+  LimitExcesses simulated;  // mended already
+  simulated.fill(kLimitTolerance);
   actor.playback.amend(limited(actor.body, with_offsets(actor.body, actor.unhindered, offsets),
-                               actor.playback.held(), actor.playback.shown_before()));
+                               actor.playback.shown_before(),
+                               actor.was_simulated ? simulated : actor.free));
   actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
 }
 

@@ -7,6 +7,7 @@
 #include "motion/playback.h"
 #include "motion/variation.h"
 #include "physics/contact.h"
+#include "physics/limits.h"
 #include "scene/keep_out.h"
 #include "scene/pace.h"
 
@@ -67,12 +68,16 @@ class Stage {
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;
-    Pose unhindered;         // this tick's pose as if nothing stood in its way
-    LimbOffsets kept_out{};  // what keeps its limbs out of the other bodies
+    bool seam = false;          // a launch began that is not shown yet
+    Pose unhindered;            // this tick's pose as if nothing stood in its way
+    LimitExcesses free{};       // how far joints may go before they slow
+    LimitExcesses free_more{};  // of that, what the last seam left
+    LimbOffsets kept_out{};     // what keeps its limbs out of the other bodies
     SweptBody swept{};
     FighterTrack track;
   };
 
+  void free_joints(Actor& actor, Tick tick) const;
   static void amend(Actor& actor, const LimbOffsets& offsets);
   Pose clip_pose(const Actor& actor, Tick tick) const;
   static Tick clip_age(const Actor& actor, Tick tick);

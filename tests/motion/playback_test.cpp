@@ -196,6 +196,21 @@ TEST(Playback, ADecayStartsWithItsValueAndVelocityAndEndsAtRest) {
   EXPECT_EQ(next.value(), Vec3());
 }
 
+TEST(Playback, AVelocityThatIsGoneSoonerCarriesLessFar) {
+  const auto farthest = [](Decay decay) {
+    float far = 0;
+    for (; !decay.done(); decay.step(kTickSeconds)) far = std::max(far, decay.value().x);
+    return far;
+  };
+  const float whole = farthest({Vec3{}, {3, 0, 0}, 0.6f}),
+              sooner = farthest({Vec3{}, {3, 0, 0}, 0.6f, 0.2f});
+  EXPECT_NEAR(sooner, whole / 3, 0.02f * whole);
+  Decay decay({1, 0, 0}, {3, 0, 0}, 0.6f, 0.2f);
+  EXPECT_NEAR(decay.value().x, 1, 1e-5f);
+  decay.step(0.599f);
+  EXPECT_NEAR(decay.value().x, 0, 1e-4f);
+}
+
 TEST(Playback, ShowsAClipAsItIsWhereNothingNeedsMending) {
   const Clip kick = test::kick_clip(kSkeleton);
   std::vector<Clip> clips = boxing();

@@ -1,5 +1,7 @@
 #include "physics/body.h"
 
+#include "physics/limits.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -163,6 +165,26 @@ TEST(JointLimits, StancesAreAllowedAndMirroringChangesNothing) {
     for (std::size_t i = 0; i < here.size(); ++i)
       EXPECT_NEAR(here[i].excess, there[i].excess, 1e-4f);
   }
+}
+
+TEST(JointLimits, AJointSlowsBeforeItsLimitAndNeverPassesIt) {
+  const BodyModel body = make_body({});
+  LimitExcesses free;
+  free.fill(radians(-12));
+  constexpr float kMost = radians(2);
+  const auto excess_at = [&](float flexed) {
+    Pose pose = rest_pose(body.skeleton);
+    pose.rotation[index(Joint::left_lower_arm)] = from_rotation_vector({0, -radians(flexed), 0});
+    constexpr std::size_t kLeftElbow = 3;
+    return limit_excesses(within_limits(body, pose, kMost, pose, free))[kLeftElbow];
+  };
+  EXPECT_NEAR(excess_at(137), radians(-13), 1e-3f);  // free to go that far
+  for (float flexed = 138; flexed < 175; flexed += 1) {
+    EXPECT_LE(excess_at(flexed), kMost + 1e-4f) << flexed;
+    EXPECT_GE(excess_at(flexed + 1), excess_at(flexed) - 1e-4f) << flexed;
+  }
+  // Where a hard stop would have a corner, it goes on at e^-1 of its pace.
+  EXPECT_NEAR(excess_at(152.5f) - excess_at(151.5f), radians(.368f), radians(.02f));
 }
 
 }  // namespace

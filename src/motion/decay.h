@@ -1,0 +1,42 @@
+#pragma once
+// What is left of a difference at a seam, and how it falls to nothing.
+
+#include "motion/pose.h"
+
+namespace ringcraft {
+
+// An offset that decays from a start value and velocity to nothing. Quintic: velocity and
+// acceleration end at zero, the acceleration starts at zero (Bollo 2018, with a0 = 0).
+class Decay {
+ public:
+  Decay() = default;
+  // value in m or rad, velocity per second, seconds > 0
+  Decay(Vec3 value, Vec3 velocity, float seconds);
+  // The same where the velocity is gone sooner: what flies does not fly on while the rest blends.
+  Decay(Vec3 value, Vec3 velocity, float seconds, float velocity_seconds);
+
+  Vec3 value() const;
+  bool done() const { return age_ >= seconds_; }
+  float seconds_left() const { return done() ? 0.0f : seconds_ - age_; }
+  void step(float dt) { age_ += dt; }
+
+ private:
+  Vec3 start_{}, velocity_{};
+  float seconds_ = 0, velocity_seconds_ = 0, age_ = 0;
+};
+
+// How far, m, what hangs on a joint reaches from it.
+float lever_of(const Skeleton& skeleton, Joint joint);
+
+// Seconds in which a velocity, m/s, is taken off with at most 20 m/s2.
+float stopping_seconds(Vec3 velocity);
+
+// The decay of a rotation that was `before` and `shown` in the last two ticks and from now on
+// follows `now` and `after`. With a `lever`, m, its speed is taken off as soon as that may be.
+Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever = 0);
+
+// The same of a limb's root, as its swing and turn (joint_turns.h).
+Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
+                 const Pose& now, const Pose& after, float seconds, float lever);
+
+}  // namespace ringcraft

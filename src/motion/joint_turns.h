@@ -1,0 +1,38 @@
+#pragma once
+// Joints of limbs by the numbers in which their ranges are told: shoulders and hips by swing and
+// turn, knees and elbows by flexion.
+
+#include "motion/pose.h"
+
+namespace ringcraft {
+
+// A ball joint about the middle of its range: its swing across the limb, and its turn about it.
+// What lies between two turns inside the joint's range is inside it in these numbers, which is not
+// so along the shortest turn.
+struct BallJoint {
+  Quat middle;
+  Vec3 along;  // the limb, at the joint's middle: a unit axis
+};
+BallJoint ball_joint(const Limb& limb);
+Vec3 ball_turns(const BallJoint& joint, Side side, Quat rotation);  // rotation vector, rad
+Quat ball_rotation(const BallJoint& joint, Side side, Vec3 turns);
+
+// Between two turns of a limb's root, inside its range where both are; share 0 is a.
+Quat mix_root(Side side, const Limb& limb, Quat a, Quat b, float share);
+
+// Flexion of a limb's middle joint, rad, about its hinge; negative where it is bent backwards.
+float flexion(const Skeleton& skeleton, const Limb& limb, Quat rotation);
+
+// What lets a joint go on freely: what its clip has, and, fading, what the seam had.
+struct Free {
+  float own, seam;  // rad
+  float gone;       // of the blend, 0 .. 1
+};
+
+// An angle that comes near to `most`, slower and slower from `from` on.
+float slowed(float angle, const Free& free, float from, float most);
+
+// A humerus inside its cone and its turn (limits.cpp of physics), which it comes near to slowly.
+Vec3 shoulder_slowed(const BallJoint& joint, Vec3 turns, Vec3 own, Vec3 seam, float gone);
+
+}  // namespace ringcraft
