@@ -233,7 +233,7 @@ void Bout::commit_rest(FighterId id) {
 }
 
 void Bout::advance_one_tick() {
-  if (launched_) foresee();
+  if (launched_ || strikes_now()) foresee();
   ++state_.now;
   stage_.show(state_.now);
   if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
@@ -428,7 +428,21 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   }
 }
 
-// What the tree says of the strikes in flight, now that somebody has begun something new.
+// Whether a blow may land in the next tick.
+bool Bout::strikes_now() const {
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const Tick age = stage_.clip_age(FighterId(i), state_.now + 1);
+    const std::vector<Strike>& strikes = action_of(FighterId(i)).strikes;
+    for (std::size_t s = 0; s < strikes.size(); ++s) {
+      const bool active = age >= strikes[s].active_begin && age < strikes[s].active_end;
+      if (active && !(state_.fighters[i].launch.spent >> s & 1u)) return true;
+    }
+  }
+  return false;
+}
+
+// What the tree says of the strikes in flight: when somebody has begun something new, and anew
+// before every tick in which a blow may land, since where the bodies are has changed by then.
 void Bout::foresee() {
   launched_ = false;
   for (std::size_t i = 0; i < standing_.size(); ++i) {

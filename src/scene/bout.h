@@ -65,6 +65,7 @@ class Bout {
   void deliver(FighterId attacker, FighterId target, const Blow& blow, Event event);
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
   void push_apart();
+  bool strikes_now() const;
   void foresee();
   void note_foreseen(Event& event);
 
