@@ -9,12 +9,6 @@
 namespace ringcraft {
 namespace {
 
-// Ticks over which the aim is eased in: half the startup of an attack, half the clip of the rest.
-Tick aim_ticks(const Action& action) {
-  const Tick whole = action.attacks() ? action.strikes.front().active_begin : action.length();
-  return std::max<Tick>(1, whole / 2);
-}
-
 Launch launched(const MotionLibrary& library, ActionId action, Tick start,
                 const Placement& placement) {
   Launch launch;
@@ -42,6 +36,11 @@ std::uint64_t FightState::hash() const {
 
 Placement scaled(const Placement& placement, float factor) {
   return {placement.x * factor, placement.z * factor, placement.yaw};
+}
+
+Tick aim_ticks(const Action& action) {
+  const Tick whole = action.attacks() ? action.strikes.front().active_begin : action.length();
+  return std::max<Tick>(1, whole / 2);
 }
 
 float aim_share(const Action& action, Tick age) {

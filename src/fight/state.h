@@ -45,8 +45,11 @@ struct FightState {
 // Ground position scaled for a body of another height; the yaw stays.
 Placement scaled(const Placement& placement, float factor);
 
-// Share of the aim that is eased in `age` ticks after the launch: 0 at the start, 1 from half the
-// startup of an attack (half the clip of anything else) on.
+// Ticks over which the aim is eased in: half the startup of an attack, half the clip of the rest.
+Tick aim_ticks(const Action& action);
+
+// Share of the aim that is eased in `age` ticks after the launch: 0 at the start, 1 from
+// `aim_ticks` on.
 float aim_share(const Action& action, Tick age);
 
 // Where action space lies in the world at `tick`: the launch's placement turned by the share of the

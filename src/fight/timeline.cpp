@@ -17,7 +17,7 @@ void add(Hasher& hasher, const Launch& launch) {
 void add(Hasher& hasher, const DecisionRecord& record) {
   hasher.add(record.lines.size()).add(record.chosen).add(record.nodes).add(record.leaves);
   for (const Line& line : record.lines) {
-    hasher.add(line.score).add(line.actions.size());
+    hasher.add(line.score).add(line.at_most).add(line.actions.size());
     for (const std::string& action : line.actions) hasher.add(std::string_view(action));
   }
 }

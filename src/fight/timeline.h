@@ -38,10 +38,11 @@ struct Line {
   std::vector<std::string> actions;  // alternating as the tree did, "name" or "*name" where forced
   std::vector<int> actors;           // who launches each
   std::int32_t score = 0;            // thousandths of a point, for the deciding fighter
+  bool at_most = false;              // the score is an upper bound: not worth looking at further
 };
 
 struct DecisionRecord {
-  std::vector<Line> lines;  // best first
+  std::vector<Line> lines;  // best first, those with an upper bound behind the others
   std::int32_t chosen = 0;  // index in lines
   Tick horizon = 0;         // ticks looked ahead: less than asked for under a node limit
   std::uint64_t nodes = 0, leaves = 0, forced_nodes = 0;

@@ -47,7 +47,9 @@ json line_json(const Line& line) {
                      {"action", forced ? action.substr(1) : action},
                      {"forced", forced}});
   }
-  return {{"score", rounded(line.score / 1000.0, 3)}, {"moves", std::move(moves)}};
+  json object = {{"score", rounded(line.score / 1000.0, 3)}, {"moves", std::move(moves)}};
+  if (line.at_most) object["at_most"] = true;  // the score is an upper bound
+  return object;
 }
 
 void add_decision(json& object, const DecisionRecord& decision, bool with_lines) {

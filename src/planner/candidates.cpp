@@ -79,7 +79,6 @@ struct Duel::Aspect {
   bool opponent_down = false;
   bool late = false;    // the opponent's attack is too young to be answered by a particular defense
   Tick now = 0;         // when the candidate starts: after its path
-  Tick lead = 0;        // length of the path
   Frame end;            // the own root
   Vec3 opponent_now{};  // world
   double rate_now = 0;  // F_loc
@@ -90,21 +89,21 @@ struct Duel::Aspect {
     return ring_half > 0 ? ring_half - static_cast<double>(std::max(std::abs(at.x), std::abs(at.z)))
                          : 1e3;
   }
-  double protection(const Action& action, const Frame& start, const Aim& aim,
-                    const ActionTable& table) const;
+  double protection(const ActionTable& table, const Frame& start, const Aim& aim) const;
   struct Ending {        // where the candidate leaves its fighter
     Vec3 root{};         // world
     float distance = 0;  // to the opponent's root by then, m
     float cosine = 1;    // of the opponent's bearing off the facing
   };
-  Ending ending(const ActionTable& table, const Frame& start, const Aim& aim) const;
-  double location(const ActionTable& table, const Ending& end) const;
+  Ending ending(const NextAction& next, const Frame& start, const Aim& aim) const;
+  double location(const NextAction& next, const Ending& end) const;
   double attack(const ActionTable& table, ActionId id, const Frame& start, const Aim& aim) const;
 };
 
 // Points that the candidate is expected to save of what is in flight against the fighter.
-double Duel::Aspect::protection(const Action& action, const Frame& start, const Aim& aim,
-                                const ActionTable& table) const {
+double Duel::Aspect::protection(const ActionTable& table, const Frame& start,
+                                const Aim& aim) const {
+  const Action& action = *table.action;
   double saved = 0;
   for (const Threat& threat : threats) {
     double share = 0;
@@ -130,23 +129,23 @@ double Duel::Aspect::protection(const Action& action, const Frame& start, const 
   return saved;
 }
 
-Duel::Aspect::Ending Duel::Aspect::ending(const ActionTable& table, const Frame& start,
+Duel::Aspect::Ending Duel::Aspect::ending(const NextAction& next, const Frame& start,
                                           const Aim& aim) const {
   Ending end;
-  end.root = start.to_outer(aim.out({table.end.x, 0, table.end.z}));
-  const Vec3 then = opponent->root_at(now + table.length).position() - end.root;
+  end.root = start.to_outer(aim.out({next.end.x, 0, next.end.z}));
+  const Vec3 then = opponent->root_at(now + next.length).position() - end.root;
   end.distance = std::sqrt(then.x * then.x + then.z * then.z);
   // Facing at the end: the start's, turned by the aim and by the clip.
-  const Vec3 ahead = aim.out({table.end.sine, 0, table.end.cosine});
+  const Vec3 ahead = aim.out({next.end.sine, 0, next.end.cosine});
   const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
   const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
   if (end.distance > 1e-4f) end.cosine = (then.x * facing_x + then.z * facing_z) / end.distance;
   return end;
 }
 
-double Duel::Aspect::location(const ActionTable& table, const Ending& end) const {
+double Duel::Aspect::location(const NextAction& next, const Ending& end) const {
   const double rate = location_rate(own->weights, end.distance, end.cosine, ropes(end.root));
-  const double length = seconds(lead + table.length);
+  const double length = seconds(next.lead + next.length);
   return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
 }
 
@@ -218,21 +217,18 @@ void Duel::score_candidates(const Node& node, int who) {
   float least_turned = -2;
   Scored spare{};
   for (const NextAction& next : self.flight.table->next) {
-    const ActionTable& table = own.tables->at(next.to);
-    const Action& action = *table.action;
-    if (aspect.late && action.defense && action.defense->particular()) continue;
+    if (aspect.late && next.particular) continue;
     aspect.now = node.now + next.lead;
-    aspect.lead = next.lead;
     const Frame start = aspect.end * next.alignment;
     // The aim of an attack points its start at the opponent, that of anything else its end.
     Vec3 target = start.to_inner(aspect.opponent_now);
-    if (!action.attacks()) target = table.end.to_inner(target);
-    const Aim aim(target, action.attacks());
-    const Aspect::Ending end = aspect.ending(table, start, aim);
-    double points = aspect.location(table, end) + 0.001 * own.launch[next.to.at()];
-    if (action.attacks()) points += aspect.attack(table, next.to, start, aim);
-    if (!aspect.threats.empty()) points += aspect.protection(action, start, aim, table);
-    const Scored one{thousandths(points), action.kind, &next, false};
+    if (!next.attacks) target = next.end.to_inner(target);
+    const Aim aim(target, next.attacks);
+    const Aspect::Ending end = aspect.ending(next, start, aim);
+    double points = aspect.location(next, end) + 0.001 * own.launch[next.to.at()];
+    if (next.attacks) points += aspect.attack(*next.table, next.to, start, aim);
+    if (!aspect.threats.empty()) points += aspect.protection(*next.table, start, aim);
+    const Scored one{thousandths(points), next.kind, &next, false};
     if (setup_->settings.prune.back_turned && end.cosine < kCosineBack) {
       ++counts_.back_turned;
       if (turned_ != nullptr) turned_->push_back(next.to);

@@ -62,28 +62,33 @@ std::uint64_t world_of(const MotionTables& tables, const MemoSteps& size) {
   const BodySpec& spec = tables.body().spec;
   Hasher hasher;
   hasher.add(tables.library().hash()).add(spec.height).add(spec.mass).add(spec.sex);
-  hasher.add(spec.toughness).add(size.ticks).add(size.azimuths).add(size.impulse);
+  hasher.add(spec.toughness).add(size.ticks).add(size.azimuths).add(size.speed);
+  hasher.add(size.impulse);
   return hasher.digest();
 }
 
 }  // namespace
 
-ImpactMemo::Key ImpactMemo::BlowSteps::key() const {
+ImpactMemo::Key ImpactMemo::key_of(const BlowSteps& steps) const {
   Packer p;
-  p.add(attacker, 5).add(attack.value, 13).add(attack_age, 12).add(static_cast<int>(striker), 5);
-  p.add(victim, 5).add(static_cast<int>(kind), 3).add(azimuth, 5).add(elevation, 3).add(yaw, 5);
-  p.add(blocked ? 1 : 0, 1);
-  p.add(struck_action.value, 13).add(struck_age, 12).add(static_cast<int>(struck), 5).add(speed, 8);
-  p.add(place.along, 2).add(place.beside, 3);
-  return {p.a(), p.b()};
+  p.add(steps.attack.value, 13).add(steps.attack_age, 12).add(static_cast<int>(steps.striker), 5);
+  p.add(static_cast<int>(steps.kind), 3).add(steps.azimuth, 5).add(steps.elevation, 3);
+  p.add(steps.yaw, 5).add(steps.blocked ? 1 : 0, 1);
+  p.add(steps.struck_action.value, 13).add(steps.struck_age, 12);
+  p.add(static_cast<int>(steps.struck), 5).add(steps.speed, 8);
+  p.add(steps.place.along, 2).add(steps.place.beside, 3);
+  const std::uint64_t world = worlds_[static_cast<std::size_t>(steps.attacker)] +
+                              3 * worlds_[static_cast<std::size_t>(steps.victim)];
+  return {p.a(), p.b(), world};
 }
 
-std::uint64_t ImpactMemo::ImpulseSteps::key() const {
+ImpactMemo::Key ImpactMemo::key_of(const ImpulseSteps& steps) const {
   Packer p;
-  p.add(moment.action.value, 13).add(moment.age, 12);
-  p.add(static_cast<int>(struck), 5).add(blocked ? 1 : 0, 1).add(azimuth, 5).add(elevation, 3);
-  p.add(impulse, 10).add(place.along, 2).add(place.beside, 3);
-  return p.a();
+  p.add(steps.moment.action.value, 13).add(steps.moment.age, 12);
+  p.add(static_cast<int>(steps.struck), 5).add(steps.blocked ? 1 : 0, 1);
+  p.add(steps.azimuth, 5).add(steps.elevation, 3).add(steps.impulse, 10);
+  p.add(steps.place.along, 2).add(steps.place.beside, 3);
+  return {p.a(), p.b(), worlds_[static_cast<std::size_t>(steps.victim)]};
 }
 
 ImpactMemo::ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps,
@@ -235,21 +240,25 @@ KeptOwnMotion ImpactMemo::own_motion(const ImpulseSteps& steps) {
   return [this, steps](bool mirrored, const std::function<Vec3()>& run) {
     Packer p;
     p.add(steps.moment.action.value, 13).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
-    return looked_up(own_motions_, {p.a(), static_cast<std::uint64_t>(steps.victim)}, run);
+    const Key key{p.a(), 0, worlds_[static_cast<std::size_t>(steps.victim)]};
+    return looked_up(own_motions_, &ImpactStore::own_motions, key, run);
   };
 }
 
-ImpactAnswer ImpactMemo::kept(const ImpulseSteps& steps) {
-  if (store_ == nullptr) return answer_of(steps, own_motion(steps));
-  const Key key{steps.key(), worlds_[static_cast<std::size_t>(steps.victim)]};
-  if (const auto found = store_->find(key)) return *found;
-  ImpactAnswer answer = answer_of(steps, own_motion(steps));
-  store_->add(key, answer);
-  return answer;
+template <class Value, class Compute>
+Value ImpactMemo::kept(ImpactShelf<Value> ImpactStore::*shelf, const Key& key,
+                       const Compute& compute) {
+  if (store_ == nullptr) return compute();
+  ImpactShelf<Value>& values = (*store_).*shelf;
+  if (const auto found = values.find(key)) return *found;
+  const Value value = compute();
+  values.add(key, value);
+  return value;
 }
 
 template <class Value, class Compute>
-const Value& ImpactMemo::looked_up(Shards<Value>& shards, const Key& key, const Compute& compute) {
+const Value& ImpactMemo::looked_up(Shards<Value>& shards, ImpactShelf<Value> ImpactStore::*shelf,
+                                   const Key& key, const Compute& compute) {
   Shard<Value>& shard = shards[(ImpactKeyHash()(key) >> 8) % shards.size()];
   {
     const std::lock_guard lock(shard.mutex);
@@ -257,18 +266,20 @@ const Value& ImpactMemo::looked_up(Shards<Value>& shards, const Key& key, const 
     const auto found = shard.entries.find(key);
     if (found != shard.entries.end()) return found->second;
   }
-  const Value value = compute();  // outside the lock: it takes long, and twice gives the same
+  // Outside the lock: it takes long, and twice gives the same.
+  const Value value = kept(shelf, key, compute);
   const std::lock_guard lock(shard.mutex);
   return shard.entries.try_emplace(key, value).first->second;
 }
 
 ImpactAnswer ImpactMemo::answer(const LandedBlow& blow) {
   const BlowSteps blow_steps = steps_of(blow);
-  const Vec3 impulse =
-      looked_up(impulses_, blow_steps.key(), [&] { return impulse_of(blow_steps); });
+  const Vec3 impulse = looked_up(impulses_, &ImpactStore::impulses, key_of(blow_steps),
+                                 [&] { return impulse_of(blow_steps); });
   const ImpulseSteps steps = steps_of(blow_steps, impulse);
-  const Key key{steps.key(), static_cast<std::uint64_t>(steps.victim)};
-  return turned(looked_up(answers_, key, [&] { return kept(steps); }), root_yaw(blow_steps));
+  const ImpactAnswer& found = looked_up(answers_, &ImpactStore::answers, key_of(steps),
+                                        [&] { return answer_of(steps, own_motion(steps)); });
+  return turned(found, root_yaw(blow_steps));
 }
 
 ImpactAnswer ImpactMemo::recomputed(const LandedBlow& blow) const {
@@ -313,7 +324,12 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
       part_capsule(*bodies_[static_cast<std::size_t>(victim)], standing, 0, landed.contact.struck),
       -kForward, {0, 0});
   const BlowSteps steps = steps_of(landed);
-  return kept(steps_of(steps, impulse_of(steps))).damage;
+  const ImpulseSteps impulse = steps_of(steps, impulse_of(steps));
+  return kept(&ImpactStore::answers, key_of(impulse),
+              [&] {  // beside the memo, which counts
+                return answer_of(impulse, own_motion(impulse));
+              })
+      .damage;
 }
 
 ImpactMemo::Counts ImpactMemo::counts() const {

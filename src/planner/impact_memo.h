@@ -76,7 +76,7 @@ class ImpactMemo {
 
   // The quantised blow and the quantised impulse, as numbers of steps.
   struct BlowSteps {
-    int attacker, victim;
+    int attacker, victim;  // not in the key
     ActionId attack, struck_action;
     Tick attack_age, struck_age;
     StrikeKind kind;
@@ -84,17 +84,15 @@ class ImpactMemo {
     bool blocked;
     int azimuth, elevation, yaw, speed;
     BlowPlace place;
-    Key key() const;
   };
   struct ImpulseSteps {
-    int victim;
+    int victim;         // not in the key
     PoseMoment moment;  // of the pose class of the struck body
     Part struck;
     bool blocked;
     int azimuth;  // off the facing of the struck body's root
     int elevation, impulse;
     BlowPlace place;
-    std::uint64_t key() const;
   };
 
   BlowSteps steps_of(const LandedBlow& blow) const;
@@ -103,11 +101,16 @@ class ImpactMemo {
   float root_yaw(const BlowSteps& blow) const;  // of the struck body, in its action space
   // Seen from the struck body's root. `own`: what the struck body does without the blow, kept.
   ImpactAnswer answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const;
-  ImpactAnswer kept(const ImpulseSteps& steps);  // the same, out of the store
   KeptOwnMotion own_motion(const ImpulseSteps& steps);
   static ImpactAnswer turned(ImpactAnswer answer, float yaw);
+  Key key_of(const BlowSteps& steps) const;
+  Key key_of(const ImpulseSteps& steps) const;
+  // Out of the store, else computed; and out of the memo before that.
   template <class Value, class Compute>
-  const Value& looked_up(Shards<Value>& shards, const Key& key, const Compute& compute);
+  Value kept(ImpactShelf<Value> ImpactStore::*shelf, const Key& key, const Compute& compute);
+  template <class Value, class Compute>
+  const Value& looked_up(Shards<Value>& shards, ImpactShelf<Value> ImpactStore::*shelf,
+                         const Key& key, const Compute& compute);
 
   std::vector<const MotionTables*> bodies_;
   std::vector<PoseClasses> classes_;   // one a body

@@ -189,10 +189,17 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   const StateMachine& machine = library_.machine();
   const Path* path = machine.path(from, to);
   if (path == nullptr || path->via.size() > kLongestPath) return std::nullopt;
+  const ActionTable& table = actions_[to.at()];
   NextAction next;
   next.to = to;
+  next.kind = table.action->kind;
+  next.attacks = table.action->attacks();
+  next.particular = table.action->defense && table.action->defense->particular();
   next.path = path->via;
   next.lead = path->ticks;
+  next.length = table.length;
+  next.end = table.end;
+  next.table = &table;
   const auto edge = [&](ActionId first, ActionId second) {
     return Frame(scaled(machine.edge(first, second)->alignment.placement, body_.scale));
   };
@@ -209,12 +216,12 @@ InFlight::InFlight(const MotionTables& tables, const Launch& of)
   Placement turned = of.placement;
   turned.yaw += of.aim;
   aimed = Frame(turned);
+  if (of.aim != 0) aimed_from = of.start + aim_ticks(*table->action);
 }
 
 Frame InFlight::frame_at(Tick tick) const {
-  if (launch.aim == 0) return aimed;
+  if (launch.aim == 0 || tick >= aimed_from) return aimed;
   const float share = aim_share(*table->action, age(tick));
-  if (share >= 1) return aimed;
   Placement turned = launch.placement;
   turned.yaw += launch.aim * share;
   return Frame(turned);

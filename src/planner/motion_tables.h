@@ -50,12 +50,21 @@ struct StrikeTable {
 
 Frame operator*(const Frame& outer, const Frame& inner);
 
-// An action that can follow, directly or by a path of the state machine.
+struct ActionTable;
+
+// An action that can follow, directly or by a path of the state machine. What every candidate of a
+// node is weighed by stands here, beside each other, and not in a hundred tables.
 struct NextAction {
   ActionId to;
+  Kind kind = Kind::idle;
+  bool attacks = false;
+  bool particular = false;  // a defense that answers particular attacks
+  Tick lead = 0;            // length of the path
+  Tick length = 0;          // of `to`
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
-  std::vector<ActionId> path;  // actions played in full before it; empty for a direct edge
-  Tick lead = 0;               // their lengths
+  Frame end;        // of `to`: ActionTable::end
+  const ActionTable* table = nullptr;  // of `to`
+  std::vector<ActionId> path;          // actions played in full before it; empty for a direct edge
 };
 inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
@@ -91,6 +100,8 @@ struct ActionTable {
 class MotionTables {
  public:
   MotionTables(const MotionLibrary& library, const BodyModel& body);
+  MotionTables(const MotionTables&) = delete;  // its actions point at each other
+  MotionTables& operator=(const MotionTables&) = delete;
 
   const MotionLibrary& library() const { return library_; }
   const BodyModel& body() const { return body_; }
@@ -108,7 +119,8 @@ class MotionTables {
 struct InFlight {
   const ActionTable* table = nullptr;
   Launch launch;
-  Frame aimed;  // action space once the aim is in
+  Frame aimed;          // action space once the aim is in
+  Tick aimed_from = 0;  // when it is
 
   InFlight() = default;
   InFlight(const MotionTables& tables, const Launch& launch);

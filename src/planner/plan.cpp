@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "planner/duel.h"
 #include "planner/root_search.h"
+#include "planner/soft_choice.h"
 #include "planner/tally.h"
 #include "planner/tree.h"
 
@@ -15,8 +16,6 @@ namespace ringcraft {
 namespace {
 
 constexpr std::size_t kMostLines = 6;
-constexpr double kMarginTemperatures =
-    4;                                  // moves farther than this below the best are never chosen
 constexpr double kRarityKept = 0.9;     // phi <- 0.9 phi + 0.1 [launched]
 constexpr Tick kHorizonStep = 30;       // 0.25 s: grid of shorter horizons under a node limit
 constexpr Tick kFirstHorizon = 90;      // 0.75 s
@@ -26,11 +25,6 @@ constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
 
 bool same_build(const BodySpec& a, const BodySpec& b) {
   return a.height == b.height && a.mass == b.mass && a.sex == b.sex && a.toughness == b.toughness;
-}
-
-// Root moves so far below the best have exact values: they may be chosen.
-std::int32_t margin_of(const Style& style) {
-  return thousandths(kMarginTemperatures * style.temperature);
 }
 
 using Roots = std::vector<RootMove<Duel>>;
@@ -67,10 +61,11 @@ struct Planner::Inside {
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
   double work_of(FighterId fighter, ActionId action) const;
-  Searched search(const DuelSetup& setup, const FightState& state, const PlanLimits& limits) const;
-  Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root) const;
-  std::size_t choice(const Roots& roots, const Style& style, Tick now, FighterId fighter) const;
-  Line line_of(const RootMove<Duel>& move, const DuelSetup& setup) const;
+  Searched search(const DuelSetup& setup, const FightState& state, const SoftChoice& preference,
+                  const PlanLimits& limits) const;
+  Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
+                                 const SoftChoice& preference) const;
+  SoftChoice preference(const FightState& state, FighterId fighter) const;
 };
 
 Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how,
@@ -182,8 +177,8 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
 }
 
 // One step of every move: what is left when the node limit does not pay for the shortest horizon.
-Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup,
-                                                const DuelNode& root) const {
+Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
+                                                const SoftChoice& preference) const {
   Searched result;
   result.horizon = kHorizonStep;
   Duel game(setup, root.now + kHorizonStep);
@@ -191,10 +186,17 @@ Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup,
   game.moves(root, moves);
   for (const DuelMove& move : moves) {
     const Child<DuelNode> child = game.apply(root, move);
-    result.roots.push_back({move, child, game.value(child.node), true, {}, {1, 1, 0, 0, 0}, game});
+    result.roots.push_back({move,
+                            child,
+                            game.value(child.node),
+                            preference(game.key(move)),
+                            true,
+                            {},
+                            {1, 1, 0, 0, 0},
+                            game});
   }
   std::stable_sort(result.roots.begin(), result.roots.end(),
-                   [](const auto& a, const auto& b) { return a.value > b.value; });
+                   [](const auto& a, const auto& b) { return a.sum() > b.sum(); });
   result.counts.nodes = result.counts.leaves = moves.size();
   return result;
 }
@@ -202,11 +204,10 @@ Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup,
 // Iterative deepening by time, only under a limit: a short horizon first, whose growth tells how
 // far the limit will carry.
 Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state,
-                                 const PlanLimits& limits) const {
+                                 const SoftChoice& preference, const PlanLimits& limits) const {
   const Style& style = *setup.side[0].style;
   const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
   const DuelNode root = Duel::root(setup, state);
-  const std::int32_t margin = margin_of(style);
   SearchSettings search_settings;
   search_settings.cost = setup.cost;
   SearchStop stop;
@@ -227,7 +228,7 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
   std::uint64_t nodes_before = 0;
   while (true) {
     Duel game(setup, state.now + horizon);
-    Roots roots = search.run(game, root, margin, limit);
+    Roots roots = search.run(game, root, preference, limit);
     if (roots.empty()) break;
     const Tick before = best.horizon;
     best.roots = std::move(roots);
@@ -256,44 +257,13 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
     if (further <= 0) break;
     horizon = std::min(wanted, horizon + further);
   }
-  return best.roots.empty() ? weighed_by_first_step(setup, root) : std::move(best);
+  return best.roots.empty() ? weighed_by_first_step(setup, root, preference) : std::move(best);
 }
 
-// A soft choice: probability ~ exp((v - v_best) / tau) among moves within 4 tau; tau 0 takes the
-// best.
-std::size_t Planner::Inside::choice(const Roots& roots, const Style& style, Tick now,
-                                    FighterId fighter) const {
-  if (style.temperature <= 0) return 0;
-  std::vector<double> weights;
-  double sum = 0;
-  for (const RootMove<Duel>& move : roots) {
-    const double below = (roots.front().value - move.value) / 1000.0 / style.temperature;
-    const bool near = move.exact && below <= kMarginTemperatures;
-    weights.push_back(near ? std::exp(-below) : 0.0);
-    sum += weights.back();
-  }
-  Random random(derived_seed(seed, "choice", static_cast<std::uint64_t>(now)),
-                static_cast<std::uint64_t>(fighter.value));
-  double left = static_cast<double>(random.uniform()) * sum;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (weights[i] <= 0) continue;
-    left -= weights[i];
-    if (left < 0) return i;
-  }
-  return 0;
-}
-
-Line Planner::Inside::line_of(const RootMove<Duel>& root, const DuelSetup& setup) const {
-  Line line;
-  line.score = root.value;
-  const auto add = [&](const DuelMove& move) {
-    const std::string& name = library.action(move.first()).name;
-    line.actions.push_back(move.forced ? "*" + name : name);
-    line.actors.push_back(setup.side[move.side].id.value);
-  };
-  add(root.move);
-  for (const DuelMove& move : root.line) add(move);
-  return line;
+SoftChoice Planner::Inside::preference(const FightState& state, FighterId fighter) const {
+  const std::uint64_t moment = derived_seed(seed, "choice", static_cast<std::uint64_t>(state.now));
+  return {contenders[fighter.at()].style.temperature,
+          derived_seed(moment, "fighter", static_cast<std::uint64_t>(fighter.value))};
 }
 
 Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
@@ -345,6 +315,37 @@ std::vector<Event> foreseen_events(const DuelSetup& setup, const MotionLibrary& 
     for (const DuelEvent& one : met) events.push_back(event_of(one, setup, library, node));
   }
   return events;
+}
+
+Line line_of(const RootMove<Duel>& root, const DuelSetup& setup, const MotionLibrary& library) {
+  Line line;
+  line.score = root.value;
+  line.at_most = !root.exact;
+  const auto add = [&](const DuelMove& move) {
+    const std::string& name = library.action(move.first()).name;
+    line.actions.push_back(move.forced ? "*" + name : name);
+    line.actors.push_back(setup.side[move.side].id.value);
+  };
+  add(root.move);
+  for (const DuelMove& move : root.line) add(move);
+  return line;
+}
+
+// The best first, those of which only an upper bound is known behind the others.
+void add_lines(DecisionRecord& record, const Roots& roots, const DuelSetup& setup,
+               const MotionLibrary& library) {
+  std::vector<const RootMove<Duel>*> order;
+  order.reserve(roots.size());
+  for (const RootMove<Duel>& root : roots) order.push_back(&root);
+  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+    return a->exact != b->exact ? a->exact : a->value > b->value;
+  });
+  for (const RootMove<Duel>* root : order) {
+    const bool chosen = root == &roots.front();
+    if (record.lines.size() >= kMostLines && !chosen) continue;
+    if (chosen) record.chosen = static_cast<std::int32_t>(record.lines.size());
+    record.lines.push_back(line_of(*root, setup, library));
+  }
 }
 
 DecisionRecord record_of(const Searched& searched) {
@@ -402,22 +403,13 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
   if (!opponent.valid()) return resting(in.library, state, fighter, scale);
   const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
-  const Searched searched = in.search(setup, state, limits);
+  const Searched searched = in.search(setup, state, in.preference(state, fighter), limits);
   if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
-  const Style& style = in.contenders[fighter.at()].style;
-  const std::size_t chosen = in.choice(searched.roots, style, state.now, fighter);
-
   Plan plan;
   plan.record = record_of(searched);
   plan.reproducible = !limits.any();
-  std::size_t shown = std::min(kMostLines, searched.roots.size());
-  for (std::size_t i = 0; i < shown; ++i) {
-    const bool last = i + 1 == shown;
-    const std::size_t which = last && chosen >= shown ? chosen : i;
-    if (which == chosen) plan.record.chosen = static_cast<std::int32_t>(i);
-    plan.record.lines.push_back(in.line_of(searched.roots[which], setup));
-  }
-  const RootMove<Duel>& move = searched.roots[chosen];
+  const RootMove<Duel>& move = searched.roots.front();
+  add_lines(plan.record, searched.roots, setup, in.library);
   const FighterState& self = state.fighters[fighter.at()];
   if (move.move.forced) {
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
@@ -469,7 +461,7 @@ SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
   const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
-  return tally_of(setup, state, horizon, trial, margin_of(*setup.side[0].style));
+  return tally_of(setup, state, horizon, trial, in.preference(state, fighter));
 }
 
 TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_contact,

@@ -2,9 +2,10 @@
 // The root of the search: every move is a task of its own, so that values, counts and lines are the
 // same for any number of threads.
 //
-// The first move is searched with an open window; the others, with the window opened by `margin`
-// below its value, do not hear of each other. So every move within `margin` of the best has its
-// exact value.
+// Each move has a preference that is added to its value; the search finds the largest sum. The
+// first move is searched with an open window; the others, with a window that begins at what they
+// must exceed to be preferred to it, do not hear of each other. So the best and all that were
+// preferred to the first have exact values, the others upper bounds.
 
 #include <atomic>
 #include <thread>
@@ -18,10 +19,13 @@ struct RootMove {
   typename G::Move move;
   Child<typename G::Node> child;
   std::int32_t value = 0;
-  bool exact = false;                  // else the value is an upper bound, below the margin
+  std::int32_t preference = 0;         // added to the value where moves are compared
+  bool exact = false;                  // else the value is an upper bound
   std::vector<typename G::Move> line;  // after `move`
   SearchCounts counts;
   G game;  // the task's own: holds what it counted
+
+  std::int32_t sum() const { return value + preference; }
 };
 
 // Runs task(0) .. task(count - 1) on up to `threads` threads.
@@ -54,23 +58,32 @@ class RootSearch {
   RootSearch(const SearchSettings& settings, int threads, bool alpha_beta)
       : settings_(settings), threads_(threads), alpha_beta_(alpha_beta) {}
 
-  // Searches every move of `root`, where the maximizer acts. Best first; equal values in the order
-  // in which they were searched. Empty when the node limit (over all moves; 0 is none) was not
-  // enough. `root_game` counts what was struck off at the root.
-  std::vector<RootMove<G>> run(G& root_game, const Node& root, std::int32_t margin,
+  // Searches every move of `root`, where the maximizer acts. The largest sum of value and
+  // `preference` (of a move's key) first; of equal sums the exact one, then the smallest key. Empty
+  // when the node limit (over all moves; 0 is none) was not enough. `root_game` counts what was
+  // struck off at the root.
+  template <class Preference>
+  std::vector<RootMove<G>> run(G& root_game, const Node& root, const Preference& preference,
                                std::uint64_t node_limit) {
     std::vector<RootMove<G>> moves = children(root_game, root);
     if (moves.empty()) return moves;
-    std::stable_sort(moves.begin(), moves.end(), [&](const auto& a, const auto& b) {
-      return memory_of(a.game, a.move).last > memory_of(b.game, b.move).last;
-    });
+    for (RootMove<G>& one : moves) one.preference = preference(one.game.key(one.move));
+    const auto hoped = [&](const RootMove<G>& one) {  // from the last horizon, where there was one
+      const std::int32_t last = memory_of(one.game, one.move).last;
+      return last == kWorst ? kWorst : last + one.preference;
+    };
+    std::stable_sort(moves.begin(), moves.end(),
+                     [&](const auto& a, const auto& b) { return hoped(a) > hoped(b); });
     std::atomic<bool> aborted{false};
     const auto task = [&](std::size_t i, std::int32_t alpha, std::uint64_t limit) {
       if (!search_move(moves[i], alpha, limit)) aborted = true;
     };
     task(0, kWorst, node_limit);
     spent_ = moves[0].counts.nodes;
-    const std::int32_t alpha = moves[0].value - margin - 1;
+    const auto key = [](const RootMove<G>& one) { return one.game.key(one.move); };
+    const auto alpha = [&](const RootMove<G>& one) {
+      return moves[0].sum() - one.preference - (key(one) < key(moves[0]) ? 1 : 0);
+    };
     const std::size_t others = moves.size() - 1;
     if (others > 0 && !aborted) {
       std::uint64_t share = 0;
@@ -79,15 +92,17 @@ class RootSearch {
         if (share == 0) aborted = true;
       }
       if (!aborted) {
-        run_tasks(others, threads_, [&](std::size_t i) { task(i + 1, alpha, share); });
+        run_tasks(others, threads_,
+                  [&](std::size_t i) { task(i + 1, alpha(moves[i + 1]), share); });
         for (std::size_t i = 1; i < moves.size(); ++i) spent_ += moves[i].counts.nodes;
       }
     }
     for (RootMemory<G>& memory : memory_) memory.search->next_horizon();
     if (aborted) return {};
     for (const RootMove<G>& move : moves) memory_of(move.game, move.move).last = move.value;
-    std::stable_sort(moves.begin(), moves.end(), [](const auto& a, const auto& b) {
-      return a.value != b.value ? a.value > b.value : a.exact && !b.exact;
+    std::stable_sort(moves.begin(), moves.end(), [&](const auto& a, const auto& b) {
+      if (a.sum() != b.sum()) return a.sum() > b.sum();
+      return a.exact != b.exact ? a.exact : key(a) < key(b);
     });
     return moves;
   }
@@ -102,7 +117,7 @@ class RootSearch {
     const G clean = game;  // tasks count from here on
     std::vector<RootMove<G>> sound, struck;
     for (const auto& move : list) {
-      RootMove<G> one{move, game.apply(root, move), 0, false, {}, {}, clean};
+      RootMove<G> one{move, game.apply(root, move), 0, 0, false, {}, {}, clean};
       (one.child.fault > 0 ? struck : sound).push_back(std::move(one));
     }
     if (sound.empty() && !struck.empty()) {

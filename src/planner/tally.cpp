@@ -71,13 +71,13 @@ TreeShape shape_of(const DuelSetup& setup, const FightState& state, Tick horizon
 }
 
 SearchTally tally_of(const DuelSetup& setup, const FightState& state, Tick horizon,
-                     const SearchTrial& trial, std::int32_t margin) {
+                     const SearchTrial& trial, const SoftChoice& preference) {
   RootSearch<Duel> search(SearchSettings{trial.devices}, 1, true);
   const DuelNode root = Duel::root(setup, state);
   SearchTally tally;
   for (Tick at = trial.deepening ? std::min(kFirstHorizon, horizon) : horizon;;) {
     Duel game(setup, state.now + at);
-    const auto roots = search.run(game, root, trial.margin ? margin : 0, 0);
+    const auto roots = search.run(game, root, preference, 0);
     if (!roots.empty()) tally.value = roots.front().value;
     for (const RootMove<Duel>& one : roots) tally.counts += one.counts;
     if (at >= horizon) break;

@@ -2,6 +2,7 @@
 // What a search visits, and what the tree it searches looks like: for studies of the search.
 
 #include "planner/duel.h"
+#include "planner/soft_choice.h"
 
 namespace ringcraft {
 
@@ -25,7 +26,6 @@ double knuth_moore_leaves(double branching, double depth);
 struct SearchTrial {
   SearchDevices devices;
   bool deepening = true;  // shorter horizons first, whose best moves are tried first
-  bool margin = true;     // moves that the soft choice may take have exact values
 };
 
 // One search of the whole horizon, without a limit, on one thread.
@@ -35,6 +35,6 @@ struct SearchTally {
 };
 
 SearchTally tally_of(const DuelSetup& setup, const FightState& state, Tick horizon,
-                     const SearchTrial& trial, std::int32_t margin);
+                     const SearchTrial& trial, const SoftChoice& preference);
 
 }  // namespace ringcraft

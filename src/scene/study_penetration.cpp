@@ -40,6 +40,7 @@ Planned plans_of(const MotionLibrary& library, const SceneFile& scene,
   std::vector<Contender> contenders;
   for (const SceneFighter& one : scene.fighters) {
     contenders.push_back({make_body(one.body), one.style});
+    contenders.back().style.temperature = 0;  // what is compared is the value of the best line
   }
   Planner planner(library, contenders, scene.planner, scene.seed);
   Planned planned;

@@ -132,9 +132,8 @@ std::vector<Setting> settings() {
     one.trial.devices.*which = false;
     all.push_back(one);
   }
-  all.push_back({"without deepening", {{}, false, true}});
-  all.push_back({"without the soft choice's margin", {{}, true, false}});
-  Setting none{"none", {{}, false, true}};
+  all.push_back({"without deepening", {{}, false}});
+  Setting none{"none", {{}, false}};
   for (const auto& [name, which] : kDevices) none.trial.devices.*which = false;
   all.push_back(none);
   none.name = "own order alone";

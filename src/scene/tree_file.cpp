@@ -107,6 +107,7 @@ Json lines_json(const DecisionRecord& record) {
   Json lines = Json::array();
   for (const Line& line : record.lines) {
     lines.push_back({{"value", points(line.score)}, {"actions", line.actions}});
+    if (line.at_most) lines.back()["at_most"] = true;
   }
   return lines;
 }

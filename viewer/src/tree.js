@@ -3,7 +3,7 @@ import { escapeHtml, plain } from './data.js';
 
 const COLUMN = 132;
 const ROW = 27;
-const MARGIN = 56;  // left of the first moves: what each is worth
+const MARGIN = 66;  // left of the first moves: what each is worth
 const MOST_LINES = 40;
 
 // {name, forced, actor}, one per move of a line.
@@ -25,7 +25,7 @@ function joined(lines, chosen) {
       if (i === chosen) child.chosen = true;
       node = child;
     }
-    node.scores = [...(node.scores ?? []), line.score];
+    node.scores = [...(node.scores ?? []), { score: line.score, atMost: Boolean(line.at_most) }];
   });
   return root;
 }
@@ -40,11 +40,13 @@ function place(node, state) {
   }
 }
 
-// The score of the best line through a node.
+// The best line through a node: {score, atMost}.
 function worth(node) {
-  const below = node.children.map(worth);
-  return Math.max(...(node.scores ?? []), ...below);
+  const all = [...(node.scores ?? []), ...node.children.map(worth)];
+  return all.reduce((best, one) => (one.score > best.score ? one : best));
 }
+
+const scoreText = (line, score) => (line.atMost ? '≤ ' : '') + score(line.score);
 
 export function treeSvg(event, colours, score) {
   const lines = (event.lines ?? []).slice(0, MOST_LINES);
@@ -66,7 +68,7 @@ export function treeSvg(event, colours, score) {
         `<rect x="${x}" y="${y}" width="${COLUMN - 20}" height="20" rx="4"/><rect class="actor" x="${x}" y="${y}" width="3.5" height="20" rx="1.5" fill="${colour}"/>` +
         `<text x="${x + 9}" y="${y + 14}">${escapeHtml(shown)}</text></g>`);
       if (node.depth === 0) {
-        boxes.push(`<text class="score${node.chosen ? ' chosen' : ''}" x="${x - 8}" y="${y + 14}">${escapeHtml(score(worth(node)))}</text>`);
+        boxes.push(`<text class="score${node.chosen ? ' chosen' : ''}" x="${x - 8}" y="${y + 14}">${escapeHtml(scoreText(worth(node), score))}</text>`);
       }
     }
     for (const child of node.children) {
@@ -85,7 +87,7 @@ export function linesHtml(event, colours, score) {
   const rows = (event.lines ?? []).map((line, i) => {
     const steps = stepsOf(line).map((step) =>
       `<span class="step${step.forced ? ' forced' : ''}" style="--c:${colours[step.actor % colours.length]}"${step.forced ? ' title="forced: the answer that physics chose"' : ''}>${escapeHtml(plain(step.name))}</span>`);
-    return `<li class="${i === (event.chosen ?? 0) ? 'chosen' : ''}"><span class="points">${escapeHtml(score(line.score))}</span><div>${steps.join('<i>›</i>')}</div></li>`;
+    return `<li class="${i === (event.chosen ?? 0) ? 'chosen' : ''}"><span class="points">${escapeHtml(scoreText({ score: line.score, atMost: line.at_most }, score))}</span><div>${steps.join('<i>›</i>')}</div></li>`;
   });
   return `<ol class="lines">${rows.join('')}</ol>`;
 }
