@@ -104,6 +104,6 @@ int main(int count, char** arguments) {
       "{} decisions under {} ms, {:.1f} ms on the average, {:.1f} at most, {:.2f} s ahead; "
       "{} impulse steps are known\n",
       shown.decisions, ms, shown.sum_ms / std::max(1, shown.decisions), shown.most_ms,
-      shown.horizon_s / std::max(1, shown.decisions), store->size());
+      shown.horizon_s / std::max(1, shown.decisions), store->answers.size());
   return shown.decisions > 0 && hurried.launch.action.valid() ? 0 : 4;
 }
