@@ -12,6 +12,7 @@
 #include "scene/scene_file.h"
 #include "scene/study_bouts.h"
 #include "scene/study_clips.h"
+#include "scene/study_cost.h"
 #include "scene/study_penetration.h"
 #include "scene/study_search.h"
 #include "scene/study_slowed.h"
@@ -34,6 +35,8 @@ constexpr StudyEntry kStudies[] = {
      run_penetration_study},
     {"search", "A decision's time and its parts; leaves visited, device by device", "[SCENE]", 0, 1,
      run_search_study},
+    {"cost", "A decision's nodes and time by horizon and by size of the library", "[SCENE]", 0, 1,
+     run_cost_study},
     {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
      run_clips_study},
     {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0, run_hits_study},
@@ -194,6 +197,21 @@ int run_search_study(const StudyOptions& study, const CommonOptions& options) {
   if (study.count) search.decisions = static_cast<std::size_t>(*study.count);
   if (study.bouts) search.warm_up_bouts = *study.bouts;
   const Study found = search_study(*library, *scene, search, run);
+  const int code = finish_study(found, 0, options);
+  if (!options.json) fmt::print("{}", study_text(found.timing));
+  return code;
+}
+
+int run_cost_study(const StudyOptions& study, const CommonOptions& options) {
+  const auto scene = scene_of(study, options);
+  if (!scene) return fail(scene.error());
+  const auto library = library_of(*scene);
+  if (!library) return fail(library.error());
+  CostStudy cost;
+  if (study.count) cost.decisions = static_cast<std::size_t>(*study.count);
+  const Study found = study.slow > 1 ? cost_study(slowed_library(*library, study.slow), *scene,
+                                                  cost, study_run(options))
+                                     : cost_study(*library, *scene, cost, study_run(options));
   const int code = finish_study(found, 0, options);
   if (!options.json) fmt::print("{}", study_text(found.timing));
   return code;

@@ -34,6 +34,7 @@ struct StudyOptions {
 
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options);
 int run_search_study(const StudyOptions& study, const CommonOptions& options);
+int run_cost_study(const StudyOptions& study, const CommonOptions& options);
 int run_clips_study(const StudyOptions& study, const CommonOptions& options);
 int run_hits_study(const StudyOptions& study, const CommonOptions& options);
 int run_horizon_study(const StudyOptions& study, const CommonOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -34,7 +35,6 @@ struct FramePair {
 class FramePairs {
  public:
   FramePairs(const MotionLibrary& library, const FightRecord& record) {
-    tables_.reserve(2);
     for (std::size_t i = 0; i < 2; ++i) tables_.emplace_back(library, record.bodies[i]);
     std::vector<std::size_t> of[2];
     for (std::size_t i = 0; i < 2; ++i) {
@@ -70,7 +70,7 @@ class FramePairs {
   }
 
  private:
-  std::vector<MotionTables> tables_;
+  std::deque<MotionTables> tables_;
   std::vector<InFlight> flights_;
   std::vector<FramePair> pairs_;
 };

@@ -129,7 +129,11 @@ Result<void> write_study(const std::filesystem::path& folder, const Study& study
   for (const auto& [name, bytes] : files) {
     if (auto written = write_file(folder / name, bytes); !written) return written;
   }
-  return {};
+  if (study.timing_charts.empty()) return {};
+  Study clock;
+  clock.title = study.title;
+  clock.charts = study.timing_charts;
+  return write_file(folder / "timing.svg", study_svg(clock));
 }
 
 Interval wilson(std::size_t wins, std::size_t of) {

@@ -45,6 +45,7 @@ struct Study {
   StudyTable table;
   std::vector<StudyChart> charts;
   StudyTable timing;  // what the clock said; the only part that differs from run to run
+  std::vector<StudyChart> timing_charts = {};  // of it
   bool interrupted = false;
 };
 
@@ -54,7 +55,8 @@ std::string study_svg(const Study& study);
 std::string study_html(const Study& study);       // table and picture; opens by itself
 std::string study_text(const StudyTable& table);  // columns of equal width
 
-// study.csv, study.json, study.svg, study.html and timing.json; each appears whole or not at all.
+// study.csv, study.json, study.svg, study.html and timing.json, and timing.svg where the timing has
+// charts; each appears whole or not at all.
 Result<void> write_study(const std::filesystem::path& folder, const Study& study);
 
 // 95 % interval of a share, by Wilson's score (Wilson 1927); 0..1 where nothing was tried.
