@@ -251,7 +251,7 @@ Value ImpactMemo::kept(ImpactShelf<Value> ImpactStore::*shelf, const Key& key,
   if (store_ == nullptr) return compute();
   ImpactShelf<Value>& values = (*store_).*shelf;
   if (const auto found = values.find(key)) return *found;
-  const Value value = compute();
+  Value value = compute();
   values.add(key, value);
   return value;
 }

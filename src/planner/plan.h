@@ -16,7 +16,7 @@ namespace ringcraft {
 class MotionTables;   // per library and body: capsules, roots and strike sweeps by action and tick
 struct DecisionTree;  // planner/tree.h
 class ImpactMemo;     // quantised impulse steps, shared by a fight; a memo never changes a result
-class ImpactStore;    // impulse steps that are known already, shared by planners
+struct ImpactStore;   // impulse steps that are known already, shared by planners
 struct SearchCost;    // planner/search_cost.h
 struct SearchTrial;   // planner/tally.h
 struct SearchTally;

@@ -115,7 +115,8 @@ Study cost_study(const MotionLibrary& library, const SceneFile& scene, const Cos
     if (moments.size() > cost.decisions) moments.resize(cost.decisions);
     const std::vector<Found> found = found_of(sized, scene, moments, cost.horizons_s, run);
     const auto there = static_cast<std::int64_t>(sized.launchable().size());
-    StudySeries of_nodes{fmt::format("{} actions", there), {}}, of_time = of_nodes;
+    const std::string label = fmt::format("{} actions", there);
+    StudySeries of_nodes{label, {}}, of_time{label, {}};
     for (std::size_t h = 0; h < found.size() && !run.stopped(); ++h) {
       const Found& one = found[h];
       const double ms = quantile(one.ms, 0.5), count = quantile(one.nodes, 0.5);
