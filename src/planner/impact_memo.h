@@ -76,7 +76,7 @@ class ImpactMemo {
 
   // The quantised blow and the quantised impulse, as numbers of steps.
   struct BlowSteps {
-    int attacker, victim;  // not in the key
+    int attacker, victim;  // in the key by their worlds
     ActionId attack, struck_action;
     Tick attack_age, struck_age;
     StrikeKind kind;
@@ -86,7 +86,7 @@ class ImpactMemo {
     BlowPlace place;
   };
   struct ImpulseSteps {
-    int victim;         // not in the key
+    int victim;         // in the key by its world
     PoseMoment moment;  // of the pose class of the struck body
     Part struck;
     bool blocked;
