@@ -13,6 +13,7 @@
 #include "scene/study_bouts.h"
 #include "scene/study_clips.h"
 #include "scene/study_cost.h"
+#include "scene/study_hits.h"
 #include "scene/study_penetration.h"
 #include "scene/study_search.h"
 #include "scene/study_slowed.h"
@@ -286,6 +287,10 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
         ->check(CLI::Range(0.0, 600.0));
     one->add_option("--limit", study->limit_m, "Depth that is still right, m")
         ->check(CLI::Range(0.0, 1.0));
+    one->add_option("--only", study->only, "Questions of `hits`: decision,robustness")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(hit_questions()));
     one->add_option("--pairings", study->pairings, "3v1,2v1 (horizons, s) or outboxer:infighter")
         ->type_name("A,B")
         ->delimiter(',')

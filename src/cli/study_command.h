@@ -26,6 +26,7 @@ struct StudyOptions {
   double later_s = 0;        // by which the second motion begins later
   float limit_m = 0.02f;     // deeper is a fault
   bool all_contacts = false;
+  std::vector<std::string> only = {};      // questions of `hits`
   std::vector<std::string> pairings = {};  // "3v1" or "outboxer:infighter"
   float slow = 1;                          // of the library in the paper's manner
   std::string leaf = "weighted";

@@ -12,6 +12,7 @@ int run_hits_study(const StudyOptions& study, const CommonOptions& options) {
   HitsSettings settings;
   if (study.count) settings.count = *study.count;
   if (options.seed) settings.seed = *options.seed;
+  settings.only = study.only;
   StudyRun run;
   run.threads = options.threads;
   run.interrupted = &interrupted;

@@ -1,5 +1,6 @@
 #include "scene/study_hits.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -132,15 +133,42 @@ StudyTable cost_rows(const HitsAsked& asked) {
   return table;
 }
 
+namespace {
+
+constexpr const char* kCost = "cost";
+
+struct Question {
+  const char* name;
+  void (*ask)(const HitsAsked&, HitRows&);
+};
+constexpr Question kQuestions[] = {{"strikes", strike_rows},       {"balance", balance_rows},
+                                   {"decision", decision_rows},    {"recovery", recovery_rows},
+                                   {"seen", answer_rows},          {"laws", law_rows},
+                                   {"robustness", robustness_rows}};
+
+bool is_asked(const HitsSettings& settings, const std::string& name) {
+  const std::vector<std::string>& only = settings.only;
+  return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+}
+
+}  // namespace
+
+std::vector<std::string> hit_questions() {
+  std::vector<std::string> names;
+  for (const Question& question : kQuestions) names.emplace_back(question.name);
+  names.emplace_back(kCost);
+  return names;
+}
+
 HitsStudy hits_study(const MotionLibrary& library, const HitsSettings& settings,
                      const StudyRun& run) {
   HitRows rows;
   const HitsAsked asked{library, settings, run};
-  using Part = void (*)(const HitsAsked&, HitRows&);
   HitsStudy out;
-  for (const Part part : {strike_rows, balance_rows, answer_rows, law_rows, robustness_rows}) {
+  for (const Question& question : kQuestions) {
+    if (!is_asked(settings, question.name)) continue;
     const HitRows before = rows;
-    part(asked, rows);
+    question.ask(asked, rows);
     if (!run.stopped()) continue;
     rows = before;  // of what was not finished nothing is said
     break;
@@ -154,7 +182,7 @@ HitsStudy hits_study(const MotionLibrary& library, const HitsSettings& settings,
                   library.name(), settings.count, settings.seed)};
   out.study.table = std::move(rows.table);
   out.missed = rows.missed;
-  if (!out.study.interrupted) out.study.timing = cost_rows(asked);
+  if (!out.study.interrupted && is_asked(settings, kCost)) out.study.timing = cost_rows(asked);
   return out;
 }
 

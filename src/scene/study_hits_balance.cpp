@@ -118,7 +118,9 @@ struct RandomPush {
   float way, impulse, tone;
 };
 
-void agreement_rows(const HitsAsked& asked, HitRows& rows) {
+}  // namespace
+
+void decision_rows(const HitsAsked& asked, HitRows& rows) {
   rows.group("V2 decision against the body simulated to its end");
   const BodyModel body = make_body({});
   const std::array<Pose, 3> stances{square_stance(body), fighting_stance(body),
@@ -144,6 +146,8 @@ void agreement_rows(const HitsAsked& asked, HitRows& rows) {
   rows.said("said not held, stood", "%", 100 * said_lost / all, "");
   asked.run.say("decisions compared with simulated ends");
 }
+
+namespace {
 
 // The largest lean, degrees, from which one step brings the body back: released at rest.
 double release_angle(const BodyModel& body, const Pose& pose, float way) {
@@ -213,7 +217,9 @@ void step_time_rows(const HitsAsked& asked, HitRows& rows) {
 void balance_rows(const HitsAsked& asked, HitRows& rows) {
   no_step_rows(asked, rows);
   step_rows(asked, rows);
-  agreement_rows(asked, rows);
+}
+
+void recovery_rows(const HitsAsked& asked, HitRows& rows) {
   lean_rows(rows);
   step_time_rows(asked, rows);
 }

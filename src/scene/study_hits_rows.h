@@ -46,6 +46,8 @@ struct HitsAsked {
 
 void strike_rows(const HitsAsked& asked, HitRows& rows);      // V1
 void balance_rows(const HitsAsked& asked, HitRows& rows);     // V2
+void decision_rows(const HitsAsked& asked, HitRows& rows);    // V2: against the simulated end
+void recovery_rows(const HitsAsked& asked, HitRows& rows);    // V2: leans and first steps
 void answer_rows(const HitsAsked& asked, HitRows& rows);      // V4, V7
 void law_rows(const HitsAsked& asked, HitRows& rows);         // what must hold exactly
 void robustness_rows(const HitsAsked& asked, HitRows& rows);  // many random hits

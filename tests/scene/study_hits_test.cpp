@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "default_library.h"
 #include "scene/study_hits_rows.h"
 
 namespace ringcraft {
@@ -39,6 +40,18 @@ TEST(HitRows, WhatIsOnlySaidMissesNothing) {
   rows.said("what", "m", -1e9, "");
   EXPECT_EQ(rows.missed, 0);
   EXPECT_EQ(rows.table.rows.size(), 1u);
+}
+
+TEST(HitsStudy, OneQuestionAloneGivesItsOwnRowsOnly) {
+  HitsSettings settings;
+  settings.only = {"recovery"};
+  const HitsStudy found = hits_study(default_library(), settings, {});
+  ASSERT_FALSE(found.study.table.rows.empty());
+  for (const auto& row : found.study.table.rows) {
+    const auto& group = std::get<std::string>(row.front());
+    EXPECT_TRUE(group == "V2 lean release" || group == "V2 first recovery step") << group;
+  }
+  EXPECT_TRUE(found.study.timing.rows.empty());  // cost was not asked for
 }
 
 }  // namespace
