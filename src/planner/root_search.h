@@ -121,9 +121,11 @@ class RootSearch {
       (one.child.fault > 0 ? struck : sound).push_back(std::move(one));
     }
     if (sound.empty() && !struck.empty()) {
-      sound.push_back(*std::min_element(
-          struck.begin(), struck.end(),
-          [](const auto& a, const auto& b) { return a.child.fault < b.child.fault; }));
+      sound.push_back(
+          *std::min_element(struck.begin(), struck.end(), [](const auto& a, const auto& b) {
+            if (a.child.fault != b.child.fault) return a.child.fault < b.child.fault;
+            return a.game.key(a.move) < b.game.key(b.move);
+          }));
     }
     for (const RootMove<G>& one : sound) memory_of(one.game, one.move);
     return sound;

@@ -23,11 +23,27 @@ namespace ringcraft {
 enum class Actor : std::uint8_t { maximizer, minimizer, forced };
 
 // What a move leads to. A fault above 0 strikes the child off; where all children are struck off,
-// the one with the least fault (then the first) is kept, so that no node is left without a move.
+// the one with the least fault is kept, so that no node is left without a move.
 template <class Node>
 struct Child {
   Node node;
   std::int32_t fault = 0;
+};
+
+// Which of the struck-off children is kept: of equal faults that of the smallest key, so that the
+// order in which moves are tried does not matter.
+class LeastFault {
+ public:
+  // True where this one is less than all before it.
+  bool lowered_by(std::int32_t fault, std::uint32_t key) {
+    if (fault > fault_ || (fault == fault_ && key >= key_)) return false;
+    fault_ = fault, key_ = key;
+    return true;
+  }
+
+ private:
+  std::int32_t fault_ = std::numeric_limits<std::int32_t>::max();
+  std::uint32_t key_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 // `gained`: the part of the value that the way to the node has settled. value - gained of
@@ -110,7 +126,7 @@ std::int32_t minimax(G& game, const typename G::Node& node, SearchCounts& counts
   const bool max = actor != Actor::minimizer;
   std::int32_t best = max ? kWorst : kBest;
   bool any = false;
-  std::int32_t least_fault = std::numeric_limits<std::int32_t>::max();
+  LeastFault least_fault;
   typename G::Node spare{};
   const auto weigh = [&](const typename G::Node& child) {
     const std::int32_t value = minimax(game, child, counts);
@@ -119,7 +135,7 @@ std::int32_t minimax(G& game, const typename G::Node& node, SearchCounts& counts
   for (const auto& move : moves) {
     const Child<typename G::Node> child = game.apply(node, move);
     if (child.fault > 0) {
-      if (child.fault < least_fault) least_fault = child.fault, spare = child.node;
+      if (least_fault.lowered_by(child.fault, game.key(move))) spare = child.node;
       continue;
     }
     any = true;
@@ -256,7 +272,7 @@ class Search {
     const bool max = actor == Actor::maximizer;
     Found found{max ? kWorst : kBest, kNoMove};
     bool any = false;
-    std::int32_t least_fault = std::numeric_limits<std::int32_t>::max();
+    LeastFault least_fault;
     Node spare{};
     std::size_t spare_index = 0;
     // True when the window is closed and the rest need not be looked at.
@@ -288,8 +304,8 @@ class Search {
       const Move move = here.moves[i];
       const Child<Node> child = game.apply(node, move);
       if (child.fault > 0) {
-        if (child.fault < least_fault) {
-          least_fault = child.fault, spare = child.node, spare_index = i;
+        if (least_fault.lowered_by(child.fault, game.key(move))) {
+          spare = child.node, spare_index = i;
         }
         continue;
       }

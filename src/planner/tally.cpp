@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "base/random.h"
@@ -19,14 +18,13 @@ std::vector<DuelNode> children_of(Duel& game, const DuelNode& node) {
   std::vector<DuelMove> moves;
   game.moves(node, moves);
   std::vector<DuelNode> sound;
-  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  LeastFault least;
   std::optional<DuelNode> spare;
   for (const DuelMove& move : moves) {
     const Child<DuelNode> child = game.apply(node, move);
     if (child.fault == 0) {
       sound.push_back(child.node);
-    } else if (child.fault < least) {
-      least = child.fault;
+    } else if (least.lowered_by(child.fault, game.key(move))) {
       spare = child.node;
     }
   }

@@ -1,6 +1,7 @@
 #include "planner/tree.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -154,14 +155,14 @@ class Expansion {
     }
     std::vector<Grown> grown;
     Grown spare;
-    std::int32_t least_fault = std::numeric_limits<std::int32_t>::max();
-    std::size_t spare_place = 0;
+    LeastFault least_fault;
+    std::optional<std::size_t> spare_place;
     for (const DuelMove& move : moves) {
       Child<DuelNode> child;
       TreeEdge edge = play(from, move, child);
       if (child.fault > 0) {
-        if (child.fault < least_fault) {
-          least_fault = child.fault, spare = {edge, child.node}, spare_place = pruned.size();
+        if (least_fault.lowered_by(child.fault, game_.key(move))) {
+          spare = {edge, child.node}, spare_place = pruned.size();
         }
         pruned.push_back({edge.action, edge.kept});
         continue;
@@ -169,8 +170,8 @@ class Expansion {
       edge.kept.clear();
       grown.push_back({std::move(edge), child.node});
     }
-    if (grown.empty() && least_fault < std::numeric_limits<std::int32_t>::max()) {
-      pruned.erase(pruned.begin() + static_cast<std::ptrdiff_t>(spare_place));
+    if (grown.empty() && spare_place) {
+      pruned.erase(pruned.begin() + static_cast<std::ptrdiff_t>(*spare_place));
       grown.push_back(std::move(spare));
     }
     if (at != 0 && tree_.nodes.size() + grown.size() > tree_.most_nodes) return false;

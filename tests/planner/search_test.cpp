@@ -46,7 +46,9 @@ struct Toy {
             vertex(node).faults.empty() ? 0 : vertex(node).faults[i]};
   }
   std::uint32_t key(Move move) const { return static_cast<std::uint32_t>(move); }
-  std::uint32_t context(const Node& node) const { return static_cast<std::uint32_t>(node.at); }
+  std::uint32_t context(const Node& node) const {  // shared, so that moves are put in other orders
+    return static_cast<std::uint32_t>(node.at % 3);
+  }
 };
 static_assert(Game<Toy>);
 
@@ -57,6 +59,7 @@ class RandomTree {
   explicit RandomTree(std::uint64_t seed, bool faults) : random_(seed), faults_(faults) {
     depth_ = 2 + random_.below(5);
     width_ = 1 + random_.below(5);
+    sound_ = random_.below(4);
     grow(0);
   }
   const std::vector<Toy::Vertex>& vertices() const { return vertices_; }
@@ -81,7 +84,7 @@ class RandomTree {
                 ? closed_[static_cast<std::size_t>(random_.below(static_cast<int>(closed_.size())))]
                 : grow(depth + 1);
         vertex.children.push_back(child);
-        const bool struck = faults_ && vertex.actor != Actor::forced && random_.below(4) == 0;
+        const bool struck = faults_ && vertex.actor != Actor::forced && random_.below(4) >= sound_;
         vertex.faults.push_back(struck ? 1 + random_.below(3) : 0);
       }
     }
@@ -93,6 +96,7 @@ class RandomTree {
   Random random_;
   bool faults_;
   int depth_ = 0, width_ = 0;
+  int sound_ = 0;  // children in four that are not struck off; often all of a node are
   std::vector<Toy::Vertex> vertices_;
   std::vector<std::int32_t> closed_;  // finished subtrees: may be met again
 };
