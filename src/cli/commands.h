@@ -113,7 +113,12 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_interpolate(const std::string& library, const InterpolateOptions& asked,
                             const CommonOptions& options);
-int run_library_check(const std::string& library, const CommonOptions& options);
+// Heights of the fighter and of the opponent, m; both 0: two of one height.
+struct CheckHeights {
+  double own = 0, opponent = 0;
+};
+int run_library_check(const std::string& library, const CheckHeights& heights,
+                      const CommonOptions& options);
 int run_batch_command(const std::string& scene, const BatchOptions& asked,
                       const CommonOptions& options);
 int run_merge(const std::vector<std::string>& folders, const CommonOptions& options);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +8,7 @@
 #include "capture/library_file.h"
 #include "cli/commands.h"
 #include "cli/library_page.h"
+#include "motion/strike_fit.h"
 #include "scene/library_check.h"
 #include "scene/sparring.h"
 
@@ -161,11 +164,16 @@ void print_table(const LibraryCheck& check) {
 
 }  // namespace
 
-int run_library_check(const std::string& name, const CommonOptions& options) {
+int run_library_check(const std::string& name, const CheckHeights& heights,
+                      const CommonOptions& options) {
   const EndAtSignal no_file_is_written;
-  const auto library = load_library(name);
+  auto library = load_library(name);
   if (!library) return fail(library.error());
-  const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library));
+  const double own = heights.own > 0 ? heights.own : static_cast<double>(kCanonicalHeight);
+  const double opponent = heights.opponent > 0 ? heights.opponent : own;
+  const auto ratio = static_cast<float>(opponent / own);
+  if (std::abs(ratio - 1) > kSameHeight) library = fitted(*library, ratio);
+  const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);
   if (options.json) {
     fmt::print("{}\n", json_of(check).dump(1));
   } else {

@@ -183,11 +183,16 @@ int run(int argc, char** argv) {
                       "Library file, manifest, folder, or the name of one in assets");
   add_common(*inspect, options);
   inspect->callback([&] { code = run_library_inspect(library_name, options); });
+  CheckHeights check_heights;
   CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
   check->add_option("LIBRARY", library_name,
                     "Library file, manifest, folder, or the name of one in assets");
   add_common(*check, options);
-  check->callback([&] { code = run_library_check(library_name, options); });
+  check->add_option("--height", check_heights.own, "Height of the fighter, m")
+      ->check(CLI::Range(1.2, 2.3));
+  check->add_option("--opponent", check_heights.opponent, "Height of the opponent, m")
+      ->check(CLI::Range(1.2, 2.3));
+  check->callback([&] { code = run_library_check(library_name, check_heights, options); });
 
   std::string schema_name;
   CLI::App* schema = app.add_subcommand("schema", "Print a published JSON Schema");

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <spdlog/spdlog.h>
@@ -6,6 +8,7 @@
 #include "capture/library_file.h"
 #include "capture/person.h"
 #include "cli/commands.h"
+#include "motion/strike_fit.h"
 #include "scene/pair_sparring.h"
 #include "scene/scene_file.h"
 #include "scene/sparring.h"
@@ -92,7 +95,10 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   SparringSettings settings;
   settings.threads = options.threads;
   settings.interrupted = &interrupted;
-  const MotionTables attacks(*library, *attacker), defenses(*library, *defender);
+  const float ratio = defender->skeleton.height / attacker->skeleton.height;
+  const bool as_tall = std::abs(ratio - 1) <= kSameHeight;
+  const MotionLibrary blows = as_tall ? *library : fitted(*library, ratio);
+  const MotionTables attacks(blows, *attacker), defenses(*library, *defender);
   const Sparring found = spar(attacks, defenses, settings);
   if (interrupted) return 130;
   for (const ActionId attack : found.unlanded)

@@ -50,6 +50,10 @@ std::string mirrored_name(const std::string& name) {
 
 }  // namespace
 
+bool is_authored(const Action& action) {
+  return action.source.find(".toml:") != std::string::npos;
+}
+
 std::string_view name_of(Kind kind) {
   return name_in(kKinds, kind);
 }

@@ -87,6 +87,9 @@ struct Action {
   bool attacks() const { return !strikes.empty(); }
 };
 
+// True for an action that was compiled from a technique sheet.
+bool is_authored(const Action& action);
+
 std::string_view name_of(Kind kind);
 std::string_view name_of(TargetZone zone);
 std::string_view name_of(StrikeKind kind);

@@ -44,6 +44,26 @@ Vec3 position_of(const AimPoint& point, const WorldPose& world, float height) {
          world.rotation[index(point.joint)] * (point.offset * height);
 }
 
+Vec3 opponent_aim(const AimPoint& point, const WorldPose& guard, float ratio, float distance) {
+  return Placement{0, distance, kPi} * (position_of(point, guard, kCanonicalHeight) * ratio);
+}
+
+float passes(const Strike& strike, const std::vector<Vec3>& tip, Vec3 aim, Tick* at) {
+  const auto begin = static_cast<std::size_t>(strike.active_begin);
+  const auto end = std::min(static_cast<std::size_t>(strike.active_end), tip.size() - 1);
+  float nearest = 1e9f;
+  for (std::size_t i = begin; i + 1 <= end; ++i) {
+    const Vec3 way = tip[i + 1] - tip[i];
+    const float length2 = glm::dot(way, way);
+    const float u = length2 > 0 ? std::clamp(glm::dot(aim - tip[i], way) / length2, 0.0f, 1.0f) : 0;
+    const float distance = glm::distance(aim, tip[i] + way * u);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    if (at != nullptr) *at = static_cast<Tick>(i + (u > 0.5f ? 1 : 0));
+  }
+  return nearest;
+}
+
 Vec3 striking_point(const Strike& strike, const Skeleton& skeleton, const WorldPose& world) {
   constexpr float kKnuckles = 0.0515f;  // of standing height, from the wrist
   const auto at = [&](Joint joint) { return world.position[index(joint)]; };

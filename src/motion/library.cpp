@@ -76,8 +76,14 @@ MotionLibrary::MotionLibrary(LibraryParts parts)
       graph_(std::move(parts.graph)),
       dropped_(std::move(parts.dropped)),
       notes_(std::move(parts.notes)),
-      switches_(std::move(parts.switches)) {
+      switches_(std::move(parts.switches)),
+      fits_(std::move(parts.fits)) {
   sort_actions();
+  if (fits_.empty()) return;
+  Hasher hasher;
+  hasher.add(hash_);
+  for (const auto& fit : fits_) hasher.add(fit == nullptr ? 0 : fit->hash());
+  hash_ = hasher.digest();
 }
 
 void MotionLibrary::sort_actions() {

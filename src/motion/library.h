@@ -2,6 +2,7 @@
 // The motion library: every action of one stance (of both: both_stances.h) and the state machine
 // over them. Immutable.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "motion/state_machine.h"
 
 namespace ringcraft {
+
+class MotionLibrary;
 
 // What a library is made of, once it is built.
 struct LibraryParts {
@@ -18,6 +21,9 @@ struct LibraryParts {
   MotionGraph graph;
   std::vector<std::string> dropped, notes;
   std::vector<Action> switches;
+  // The library as each fighter of a scene does it (strike_fit.h), null: as it is here. The same
+  // actions in the same order, of which clips and reaches differ. Never in a file.
+  std::vector<std::shared_ptr<const MotionLibrary>> fits = {};
 };
 
 class MotionLibrary {
@@ -32,6 +38,11 @@ class MotionLibrary {
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight
   const std::vector<Action>& actions() const { return actions_; }
   const Action& action(ActionId id) const { return actions_[id.at()]; }
+  // The library whose clips that fighter of the scene shows.
+  const MotionLibrary& of(FighterId fighter) const {
+    const std::size_t i = fighter.at();
+    return i < fits_.size() && fits_[i] != nullptr ? *fits_[i] : *this;
+  }
   // Invalid when there is none; of both stances, the orthodox one.
   ActionId find(std::string_view name) const;
   const StateMachine& machine() const { return machine_; }
@@ -60,6 +71,7 @@ class MotionLibrary {
   MotionGraph graph_;
   std::vector<std::string> dropped_, notes_;
   std::vector<Action> switches_;
+  std::vector<std::shared_ptr<const MotionLibrary>> fits_;
   std::vector<ActionId> launchable_, responses_, get_ups_;
   std::uint64_t hash_ = 0;
 };

@@ -71,12 +71,14 @@ struct Planner::Inside {
 Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how,
                         std::uint64_t s, std::shared_ptr<ImpactStore> store)
     : library(of), contenders(std::move(who)), settings(how), seed(s) {
-  for (const Contender& one : contenders) {
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    const Contender& one = contenders[i];
+    const MotionLibrary& own = library.of(FighterId(i));
     const auto same = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {
-      return same_build(t->body().spec, one.body.spec);
+      return &t->library() == &own && same_build(t->body().spec, one.body.spec);
     });
     body_of.push_back(static_cast<int>(same - tables.begin()));
-    if (same == tables.end()) tables.push_back(std::make_unique<MotionTables>(library, one.body));
+    if (same == tables.end()) tables.push_back(std::make_unique<MotionTables>(own, one.body));
   }
   std::vector<const MotionTables*> pointers;
   for (const auto& one : tables) pointers.push_back(one.get());

@@ -1,6 +1,13 @@
 #include "scene/fight.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
 #include "motion/both_stances.h"
+#include "motion/strike_fit.h"
 #include "scene/bout.h"
 
 namespace ringcraft {
@@ -27,9 +34,44 @@ std::optional<FighterId> run_to_decision(Bout& bout) {
   return std::nullopt;
 }
 
+namespace {
+
+// How tall the opponents of a fighter are, as a share of the own height; the mean of several.
+float opponents_height(const SceneFile& scene, const SceneFighter& fighter) {
+  float sum = 0;
+  int count = 0;
+  for (const SceneFighter& other : scene.fighters) {
+    if (other.team == fighter.team) continue;
+    sum += other.body.height;
+    ++count;
+  }
+  return count == 0 ? 1 : sum / static_cast<float>(count) / fighter.body.height;
+}
+
+}  // namespace
+
 MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
-  if (!scene.needs_both_stances()) return library;
-  return both_stances(library, scene.stance_switches);
+  const bool both = scene.needs_both_stances();
+  const auto in_stances = [&](const MotionLibrary& one) {
+    return both ? both_stances(one, scene.stance_switches) : one;
+  };
+  std::map<float, std::shared_ptr<const MotionLibrary>> fits;  // by ratio of heights
+  std::vector<std::shared_ptr<const MotionLibrary>> of_fighter;
+  for (const SceneFighter& fighter : scene.fighters) {
+    const float ratio = opponents_height(scene, fighter);
+    auto& fit = fits[ratio];
+    if (fit == nullptr && std::abs(ratio - 1) > kSameHeight) {
+      fit = std::make_shared<const MotionLibrary>(in_stances(fitted(library, ratio)));
+    }
+    of_fighter.push_back(fit);
+  }
+  MotionLibrary base = both ? in_stances(library) : std::move(library);
+  if (std::none_of(of_fighter.begin(), of_fighter.end(), [](const auto& fit) { return fit; })) {
+    return base;
+  }
+  return MotionLibrary(LibraryParts{base.name(), base.actions(), base.machine(), base.graph(),
+                                    base.dropped(), base.notes(), base.switches(),
+                                    std::move(of_fighter)});
 }
 
 // The main path. Decisions fall when an action ends.

@@ -356,10 +356,11 @@ void add_yardstick_gates(LibraryCheck& check) {
 
 }  // namespace
 
-LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick) {
+LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick,
+                           float ratio) {
   LibraryCheck check;
   check.actions = measure(library);
-  check.strikes = measure_strikes(library);
+  check.strikes = measure_strikes(library, ratio);
   check.seams = measure_seams(library);
   check.yardstick = std::move(yardstick);
   add_action_faults(library, check);

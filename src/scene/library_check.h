@@ -57,6 +57,8 @@ struct LibraryCheck {
 
 // Without a yardstick its gates are left out. Gates of authored motion are asked of a library that
 // has authored strikes; captured ones are what they are.
-LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick);
+// Strikes are measured on a body `ratio` times as tall.
+LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick,
+                           float ratio = 1);
 
 }  // namespace ringcraft

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/aim.h"
+#include "motion/strike_fit.h"
 #include "physics/contact.h"
 
 namespace ringcraft {
@@ -103,7 +104,7 @@ void measure_chain(const Motion& m, const Strike& strike, std::size_t first, Str
 
 // The body that stands there: in the guard, `distance` away, looking back; its guard parts far off.
 BodyCapsules standing(const BodyModel& body, const Pose& guard, float distance) {
-  const Pose there = placed(guard, {0, distance, kPi});
+  const Pose there = placed(scaled(guard, body.scale), {0, distance, kPi});
   BodyCapsules shapes = capsules(body, world_pose(body.skeleton, there));
   for (std::size_t i = 0; i < kPartCount; ++i) {
     if (!is_guard_part(part_at(i))) continue;
@@ -113,14 +114,15 @@ BodyCapsules standing(const BodyModel& body, const Pose& guard, float distance) 
   return shapes;
 }
 
-void measure_landing(const BodyModel& body, const Pose& guard, const Action& action,
-                     const Strike& strike, const Motion& m, StrikeMeasures& out) {
+void measure_landing(const BodyModel& body, const BodyModel& opponent, const Pose& guard,
+                     const Action& action, const Strike& strike, const Motion& m,
+                     StrikeMeasures& out) {
   std::vector<BodyCapsules> own;
   for (Tick t = strike.active_begin; t <= std::min(strike.active_end, action.length()); ++t) {
     own.push_back(capsules(body, m.world[static_cast<std::size_t>(t)]));
   }
   for (float distance = kNear; distance < kFar; distance += kStep) {
-    const BodyCapsules target = standing(body, guard, distance);
+    const BodyCapsules target = standing(opponent, guard, distance);
     for (std::size_t i = 1; i < own.size(); ++i) {
       const auto contact =
           strike_contact(SweptBody{own[i - 1], own[i]}, strike, SweptBody{target, target});
@@ -143,30 +145,13 @@ void measure_landing(const BodyModel& body, const Pose& guard, const Action& act
   }
 }
 
-// m: how near the striking point comes to what it aims at, of a body `distance` away.
-double passes(const Skeleton& skeleton, const Pose& guard, const Strike& strike,
-              const AimPoint& point, float distance, const Motion& m) {
-  const Pose there = placed(guard, {0, distance, kPi});
-  const Vec3 aim = position_of(point, world_pose(skeleton, there), skeleton.height);
-  const auto begin = static_cast<std::size_t>(strike.active_begin);
-  const auto end = std::min(static_cast<std::size_t>(strike.active_end), m.tip.size() - 1);
-  double nearest = 1e9;
-  for (std::size_t i = begin; i + 1 <= end; ++i) {
-    const Vec3 way = m.tip[i + 1] - m.tip[i];
-    const float length2 = glm::dot(way, way);
-    const float u =
-        length2 > 0 ? std::clamp(glm::dot(aim - m.tip[i], way) / length2, 0.0f, 1.0f) : 0;
-    nearest = std::min<double>(nearest, glm::distance(aim, m.tip[i] + way * u));
-  }
-  return nearest;
-}
-
-void measure_aim(const Skeleton& skeleton, const Pose& guard, const Strike& strike, const Motion& m,
+void measure_aim(const Pose& guard, float ratio, const Strike& strike, const Motion& m,
                  StrikeMeasures& out) {
   const AimPoint* point = aim_point(strike.aim);
   if (point == nullptr) return;
-  const auto at = [&](float distance) {
-    return passes(skeleton, guard, strike, *point, distance, m);
+  const WorldPose there = world_pose(canonical_skeleton(), guard);
+  const auto at = [&](float distance) -> double {
+    return passes(strike, m.tip, opponent_aim(*point, there, ratio, distance));
   };
   out.aim_best_m = 1e9;
   for (float distance = kNear; distance < kFar; distance += 0.01f) {
@@ -187,23 +172,15 @@ void measure_aim(const Skeleton& skeleton, const Pose& guard, const Strike& stri
 
 }  // namespace
 
-bool is_authored(const Action& action) {
-  return action.source.find(".toml:") != std::string::npos;
-}
-
-std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library) {
+std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library, float ratio) {
   BodySpec spec;
   spec.height = kCanonicalHeight;
   const BodyModel body = make_body(spec);
+  spec.height *= ratio;
+  const BodyModel opponent = make_body(spec);
   std::vector<StrikeMeasures> all;
-  // Somebody who stands: the first frame of the first authored idle, or of any.
-  const Action* idle = nullptr;
-  for (const Action& action : library.actions()) {
-    if (action.kind != Kind::idle) continue;
-    if (idle == nullptr || (!is_authored(*idle) && is_authored(action))) idle = &action;
-  }
-  if (idle == nullptr) return all;
-  const Pose& guard = idle->clip.frames.front();
+  const Pose* guard = standing_guard(library);
+  if (guard == nullptr) return all;
   for (const Action& action : library.actions()) {
     std::size_t first = 1;
     for (std::size_t i = 0; i < action.strikes.size(); ++i) {
@@ -215,8 +192,8 @@ std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library) {
       out.authored = is_authored(action);
       const Motion m = motion_of(library.skeleton(), action, strike);
       measure_chain(m, strike, first, out);
-      measure_aim(library.skeleton(), guard, strike, m, out);
-      measure_landing(body, guard, action, strike, m, out);
+      measure_aim(*guard, ratio, strike, m, out);
+      measure_landing(body, opponent, *guard, action, strike, m, out);
       first = static_cast<std::size_t>(strike.active_begin);
       all.push_back(std::move(out));
     }

@@ -11,7 +11,7 @@
 
 namespace ringcraft {
 
-// One strike of one action against a standing body of the same size in the guard.
+// One strike of one action against a body that stands in the guard.
 struct StrikeMeasures {
   std::string action;
   std::size_t number = 0;  // in the action
@@ -40,9 +40,7 @@ struct StrikeMeasures {
   double aim_from = 0, aim_to = 0;  // m: distances from which it passes within 3 cm
 };
 
-std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library);
-
-// True for an action that was compiled from a technique sheet.
-bool is_authored(const Action& action);
+// Every strike against a body `ratio` times as tall.
+std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library, float ratio = 1);
 
 }  // namespace ringcraft

@@ -41,8 +41,10 @@ Pose limited(const BodyModel& body, const Pose& pose, const Pose& earlier,
 Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repetitions repetitions)
     : library_(library), repetitions_(repetitions) {
   for (BodyModel& body : bodies) {
+    const MotionLibrary& own = library.of(FighterId(actors_.size()));
     Playback playback(body.skeleton);
-    Actor actor{std::move(body),
+    Actor actor{&own,
+                std::move(body),
                 std::move(playback),
                 {},
                 {},
@@ -66,9 +68,10 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
   const float age = actor.pace.age(tick - start);
   const auto whole = static_cast<Tick>(std::floor(age));
   const float share = age - static_cast<float>(whole);
-  Pose pose = pose_at(library_, actor.launch, start + whole, actor.body.scale);
+  const MotionLibrary& own = *actor.library;
+  Pose pose = pose_at(own, actor.launch, start + whole, actor.body.scale);
   if (share > 0) {
-    pose = mix(pose, pose_at(library_, actor.launch, start + whole + 1, actor.body.scale), share);
+    pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
   }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
                             tick);

@@ -60,6 +60,7 @@ class Stage {
 
  private:
   struct Actor {
+    const MotionLibrary* library = nullptr;  // whose clips it shows
     BodyModel body;
     Playback playback;
     Launch launch;
