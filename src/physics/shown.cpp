@@ -7,6 +7,7 @@
 #include "motion/joint_turns.h"
 #include "physics/impact_frame.h"
 #include "physics/response.h"
+#include "physics/standing_feet.h"
 
 namespace ringcraft {
 namespace {
@@ -32,6 +33,7 @@ constexpr float kMostAfterLanding = 2.5f;  // s
 constexpr int kPunchSteps = 3;     // of 1/240 s over which a punch's impulse is spread (12 ms)
 constexpr int kKickSteps = 12;     // of a kick (50 ms)
 constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
+constexpr Tick kEased = 8;         // ticks on either side that a shown pose is the mean of
 constexpr float kLimitTolerance = radians(2);
 
 float smooth(float t) {
@@ -118,6 +120,42 @@ Pose lying_pose(const BodyModel& body, const Pose& aimed, const Pose& now) {
     }
   }
   return pose;
+}
+
+// The mean of the poses `from`..`to` around `middle`, those near to it counting for more.
+Pose mean_pose(std::span<const Pose> poses, std::size_t from, std::size_t middle, std::size_t to) {
+  const float half = static_cast<float>(to - middle + 1);
+  Pose mean;
+  std::array<glm::vec4, kJointCount> turns{};
+  float all = 0;
+  for (std::size_t i = from; i <= to; ++i) {
+    const float off = std::abs(static_cast<float>(i) - static_cast<float>(middle)) / half;
+    const float weight = 1 + std::cos(kPi * off);  // Hann
+    all += weight;
+    mean.hips += weight * poses[i].hips;
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Quat q = in_hemisphere_of(poses[i].rotation[j], poses[middle].rotation[j]);
+      turns[j] += weight * glm::vec4(q.w, q.x, q.y, q.z);
+    }
+  }
+  mean.hips /= all;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    mean.rotation[j] = glm::normalize(Quat(turns[j].x, turns[j].y, turns[j].z, turns[j].w));
+  }
+  return mean;
+}
+
+// The first `count` of simulated poses without the engine's rattling: each the mean of those around
+// it, from the blow on.
+std::vector<Pose> eased(std::span<const Pose> simulated, std::size_t count) {
+  std::vector<Pose> out;
+  out.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t around =
+        std::min({i, simulated.size() - 1 - i, static_cast<std::size_t>(kEased)});
+    out.push_back(mean_pose(simulated, i - around, i, i + around));
+  }
+  return out;
 }
 
 bool trunk_down(const BodyModel& body, const Pose& pose) {
@@ -243,18 +281,20 @@ class Shown {
                  {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
         balance_(body, frame_),
         mend_(body),
+        feet_(body, frame_),
         within_(frame_.pose()),
         into_clip_(seconds_into_clip()),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
     std::vector<Pose> shown;
-    shown.reserve(static_cast<std::size_t>(std::max(ticks, 0)));
     const bool falls = outcome_.response == ResponseKind::knockdown;
-    for (Tick tick = 1; tick <= ticks; ++tick) {
+    const Tick ran = falls ? ticks : ticks + kEased;
+    shown.reserve(static_cast<std::size_t>(std::max(ran, 0)));
+    for (Tick tick = 1; tick <= ran; ++tick) {
       shown.push_back(falls ? fall_tick(tick) : stand_tick(tick));
     }
-    return shown;
+    return falls ? shown : eased(shown, static_cast<std::size_t>(std::max(ticks, 0)));
   }
 
  private:
@@ -333,7 +373,9 @@ class Shown {
       met.rotation[j] = mix_root(side, arm(side), pose.rotation[j], clip(tick).rotation[j],
                                  smooth(now / kArmsMeetBy));
     }
-    return frame_.out(mend_(met));
+    Pose mended = mend_(met);
+    feet_.hold(mended);
+    return frame_.out(mended);
   }
 
   Tone fall_tone(float now) const {
@@ -416,6 +458,7 @@ class Shown {
   Ragdoll ragdoll_;
   Balance balance_;
   Mender mend_;
+  StandingFeet feet_;
   bool stopped_ = false;  // some joint is being driven back
   Pose within_;           // the last pose looked at
   float into_clip_;       // s

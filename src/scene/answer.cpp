@@ -9,6 +9,15 @@ namespace {
 // Ticks of simulation before the clip is in charge, where the body keeps its feet: inside the 150
 // ms after which viewers doubt a reaction (validation table V4).
 constexpr Tick kSimulatedTicks = 18;
+constexpr Tick kAhead = 9;  // of the clip, that the end of the simulation is eased with
+
+// Moves a launch so that at `tick` its clip's hips are over the ground where the shown body's are.
+void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick tick,
+           Launch& launch) {
+  const Vec3 off = shown.hips - pose_at(library, launch, tick, scale).hips;
+  launch.placement.x += off.x;
+  launch.placement.z += off.z;
+}
 
 }  // namespace
 
@@ -19,14 +28,19 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   const ActionId response = choose_response(library, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);
+  // Who steps goes from where it is, not from where the cut action stood; who keeps its feet where
+  // they are comes back over them.
+  const bool steps = outcome.response == ResponseKind::recovery_steps;
+  if (steps) carry(library, body.scale, input.pose, now, answer.launch);
   const bool falls = outcome.response == ResponseKind::knockdown;
   const Tick ticks = falls ? answer.launch.end - now : kSimulatedTicks;
   std::vector<Pose> target;
-  for (Tick t = 0; t <= ticks; ++t) {
+  for (Tick t = 0; t <= ticks + kAhead; ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));
+  if (steps) carry(library, body.scale, answer.simulated.back(), now + ticks, answer.launch);
   return answer;
 }
 

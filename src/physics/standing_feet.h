@@ -1,0 +1,30 @@
+#pragma once
+// Feet that stand when a blow lands stay where they are: the engine's soles creep under a body that
+// is struck (ragdoll.md, pitfall 11).
+
+#include <array>
+
+#include "physics/impact_frame.h"
+
+namespace ringcraft {
+
+class StandingFeet {
+ public:
+  StandingFeet(const BodyModel& body, const ImpactFrame& frame);
+
+  // Puts the feet of the next simulated pose, one tick later, back to where they stood, by their
+  // legs. One that is swept is dragged along, one that is lifted comes back to the simulated place.
+  void hold(Pose& pose);
+
+ private:
+  struct Foot {
+    bool stands = false;
+    Vec3 off{};       // m over the ground: where it is shown from where it is simulated
+    Vec3 ball{};      // simulated, one tick ago
+    float reach = 0;  // how straight the leg was when the blow landed, as a share of its length
+  };
+  const BodyModel& body_;
+  std::array<Foot, 2> feet_;
+};
+
+}  // namespace ringcraft
