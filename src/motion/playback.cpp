@@ -14,12 +14,15 @@ constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the 
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
+constexpr float kFootAcceleration = 25;   // m/s2
 constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take off
 constexpr float kLongestStep = 0.45f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
 constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
 constexpr float kNearlyDown = 0.035f;     // m: a step that is broken off below it is over
+constexpr float kResting = 0.015f;        // m: the ball of a foot that rests is no higher
+constexpr float kStill = 0.5f;            // m/s: nor does it move faster
 constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
@@ -27,6 +30,7 @@ constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster o
 constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
 constexpr float kLying = 0.6f;            // of the leg's length: hips lower than that do not stand
+constexpr float kCrouched = 0.4f;         // of the leg's length: nor lower than that
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
@@ -160,6 +164,13 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   }
 }
 
+// Whether a simulated foot rests on the floor, under a body that is up.
+bool Playback::stands_still(const Foot& foot) const {
+  return shown_.hips.y > kCrouched * skeleton_.leg_length() &&
+         foot.ball.y < skeleton_.toe_height() + kResting &&
+         glm::distance(foot.ball, foot.ball_before) < kStill * kTickSeconds;
+}
+
 void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& after) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
   const std::size_t end = index(leg(side).end), ball = index(toes(side));
@@ -171,10 +182,15 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
   foot.reach_left = 1;
   foot.clip_turn = now.rotation[end];
-  // Led along a line, a foot far from the clip's passes its own hip and the knee turns over.
-  foot.by_joints = simulated_;
+  // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
+  // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
+  foot.by_joints = simulated_ && !stands_still(foot);
   foot.lift = {};
   if (foot.mode == Mode::held) return;
+  if (simulated_) {  // as it was amended
+    foot.led_before = foot.ball_before;
+    foot.led = foot.ball;
+  }
   const Vec3 moved = foot.led - foot.led_before;
   const Vec3 offset = foot.led + moved - now.position[ball];
   const Vec3 velocity = (moved - clip_moved) / kTickSeconds;
@@ -183,8 +199,10 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown) {
     stand(foot, skeleton_.toe_height());
   } else {
+    // Its goal has moved: no less time than that takes at kFootAcceleration (blend_of).
+    const float seconds = std::sqrt(5.8f * glm::length(on_ground(offset)) / kFootAcceleration);
     begin_move(foot, Mode::step, offset, velocity,
-               std::max(foot.offset.seconds_left(), settings_.land_seconds));
+               std::max({foot.offset.seconds_left(), settings_.land_seconds, seconds}));
   }
 }
 
@@ -324,6 +342,8 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
   const float height = carried.y - floor;
 
+  // 0. Of a body that lies, a leg goes on by its joints until it is where the clip puts it down.
+  if (foot.by_joints && lies() && astray > settings_.restep_distance) return;
   // 1. Lifted: the way back to the clip.
   if (!planted && foot.mode != Mode::swing) {
     if (lift_waits(foot, other_foot, clip_ball)) return;
@@ -350,8 +370,7 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   }
   // 4. A step of its own that has arrived, or that touches the floor on the way.
   const bool touches = height < kTouching && velocity.y < -kTouchingSpeed &&
-                       astray > kTouchingAstray &&
-                       (!after_simulation_ || glm::length(on_ground(velocity)) < kLandingSpeed);
+                       astray > kTouchingAstray && glm::length(on_ground(velocity)) < kLandingSpeed;
   if (foot.mode == Mode::step && (foot.offset.done() || touches)) {
     stand(foot, floor);
   }

@@ -83,6 +83,7 @@ class Playback {
   // How long the difference to a clip takes to fall to nothing.
   float blend_of(const Pose& now, const Pose& after) const;
   bool lies() const;
+  bool stands_still(const Foot& foot) const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   static float clearing_rise(Decay path, float seconds);
   void stitch_foot(Side side, const WorldPose& now, const WorldPose& after);

@@ -16,6 +16,7 @@ constexpr float kArmsReach =
 constexpr float kLimitTolerance = radians(2);
 constexpr float kSlowsFrom = radians(-12);  // of a joint's range: there it slows, unless its clip
 constexpr float kUpright = .6f;             // of the leg's length: hips lower than that lie
+constexpr float kLegSlowsBy = kTickSeconds / .1f;       // a tick: of a leg that begins to swing
 constexpr float kSlowsBy = radians(60) * kTickSeconds;  // rad a tick: at which that sets in
 
 // The pose with its joints inside their ranges, on the side on which they were a tick `earlier`,
@@ -53,6 +54,7 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
                 0,
                 false,
                 false,
+                {},
                 {},
                 {},
                 {},
@@ -145,14 +147,21 @@ void Stage::show(Tick tick) {
 }
 
 // How far each joint may go in this tick before it slows: as far as its clip does, from a seam on
-// as far as it was shown there. Legs bear the body: theirs do not slow.
+// as far as it was shown there. Legs bear the body: theirs do not slow while they stand.
 void Stage::free_joints(Actor& actor, Tick tick) const {
   const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
   if (actor.was_simulated) actor.free = limit_excesses(actor.playback.shown());
   const bool seam = actor.was_simulated || actor.seam;
   actor.seam = false;
+  const FootContacts held = actor.playback.held();
+  for (const Side side : {Side::left, Side::right}) {
+    float& share = actor.swings[static_cast<std::size_t>(side)];
+    share = std::clamp(share + (held.of(side) ? -kLegSlowsBy : kLegSlowsBy), 0.0f, 1.0f);
+  }
   for (std::size_t i = 0; i < kLimitCount; ++i) {
-    const float own = leg_of_limit(i) ? kLimitTolerance : std::max(kSlowsFrom, clip[i]);
+    const auto leg = leg_of_limit(i);
+    const float slows = leg ? actor.swings[static_cast<std::size_t>(*leg)] : 1.0f;
+    const float own = glm::mix(kLimitTolerance, std::max(kSlowsFrom, clip[i]), slows);
     float& more = actor.free_more[i];
     if (seam) more = std::max(kSlowsFrom, actor.free[i]) - own;
     more -= std::clamp(more, -kSlowsBy, kSlowsBy);

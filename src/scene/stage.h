@@ -69,11 +69,12 @@ class Stage {
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;
-    bool seam = false;          // a launch began that is not shown yet
-    Pose unhindered;            // this tick's pose as if nothing stood in its way
-    LimitExcesses free{};       // how far joints may go before they slow
-    LimitExcesses free_more{};  // of that, what the last seam left
-    LimbOffsets kept_out{};     // what keeps its limbs out of the other bodies
+    bool seam = false;              // a launch began that is not shown yet
+    Pose unhindered;                // this tick's pose as if nothing stood in its way
+    LimitExcesses free{};           // how far joints may go before they slow
+    std::array<float, 2> swings{};  // 0 the foot carries .. 1: its leg swings
+    LimitExcesses free_more{};      // of that, what the last seam left
+    LimbOffsets kept_out{};         // what keeps its limbs out of the other bodies
     SweptBody swept{};
     FighterTrack track;
   };
