@@ -1,6 +1,7 @@
 // V4 and V7: what people see of an answer, and the failures that game makers report.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -81,7 +82,35 @@ struct Answered {
   double onset = 0;      // s until the struck joint moves otherwise than it would have
   double in_charge = 0;  // s until the clip alone is shown
   int answers = 0;
+  double lifts = -1, lands = -1;  // s from the blow: the first step's foot; below 0 where none
 };
+
+// When the first foot of a body that stood on both is lifted, and when it is down again.
+void first_step(const BodyModel& body, const FighterTrack& track, Tick hit, Answered& a) {
+  constexpr float kStands = .012f, kOff = .025f;  // m: the lowest point of a sole that does, is not
+  const auto low = [&](Tick t, Side side) {
+    float lowest = 1;
+    for (const Vec3& corner :
+         sole(body, world_pose(body.skeleton, track.frames[static_cast<std::size_t>(t)]), side)) {
+      lowest = std::min(lowest, corner.y);
+    }
+    return lowest;
+  };
+  if (low(hit, Side::left) > kStands || low(hit, Side::right) > kStands) return;
+  std::optional<Side> steps;
+  for (Tick t = hit; t < static_cast<Tick>(track.frames.size()); ++t) {
+    for (const Side side : {Side::left, Side::right}) {
+      if (!steps && low(t, side) > kOff) {
+        steps = side;
+        a.lifts = seconds(t - hit);
+      }
+    }
+    if (steps && low(t, *steps) < kStands) {
+      a.lands = seconds(t - hit);
+      return;
+    }
+  }
+}
 
 // Where one segment of a track gives way to the next: the tick of the first frame of the new one.
 Answered answered(const MotionLibrary& library, const HitQuery& query) {
@@ -123,6 +152,10 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
   if (a.stays_up) {
     a.skate =
         foot_skate_ratio(body.skeleton, std::span(track.frames).subspan(from), kTicksPerSecond);
+  }
+  const bool leg_struck = index(query.part) >= index(Part::left_thigh);
+  if (outcome.response == ResponseKind::recovery_steps && !leg_struck) {
+    first_step(body, track, answer->hit_tick, a);
   }
   constexpr Tick kGone = 48;  // 0.4 s: by then a step or a fall has gone somewhere
   const auto later = std::min(from + kGone, track.frames.size() - 1);
@@ -203,6 +236,23 @@ void seen_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
                         off.size()),
             "%", share(within, off.size()), "a wrong one is accepted less", at_least(90));
   rows.said("hips off the impulse, median", "deg", quantile(off, .5), "");
+}
+
+// Of a blow above the legs on a body that stands on both feet, until the shown foot lifts and is
+// down again.
+void step_rows(const std::vector<Answered>& all, HitRows& rows) {
+  rows.group("V2 first recovery step, as shown");
+  std::vector<double> lifts, lands;
+  for (const Answered& a : all) {
+    if (a.lands < 0) continue;
+    lifts.push_back(a.lifts);
+    lands.push_back(a.lands);
+  }
+  if (lifts.empty()) return;
+  rows.held(fmt::format("lifts off, mean of {} (sd {:.2g})", lifts.size(), deviation(lifts)), "s",
+            mean(lifts), "0.337 +- 0.088", {.2, .35});
+  rows.held(fmt::format("lands, mean of {} (sd {:.2g})", lands.size(), deviation(lands)), "s",
+            mean(lands), "0.637 +- 0.099", {.35, .65});
 }
 
 void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
@@ -288,6 +338,7 @@ void failure_rows(const std::vector<Answered>& all, HitRows& rows) {
 void answer_rows(const HitsAsked& asked, HitRows& rows) {
   const std::vector<Answered> all = answers_of(asked, "answers", 10, 150);
   seen_rows(asked, all, rows);
+  step_rows(all, rows);
   failure_rows(all, rows);
   asked.run.say("answers looked at");
 }
