@@ -7,6 +7,7 @@
 
 #include "capture/sheet_motion.h"
 #include "motion/aim.h"
+#include "motion/strike_fit.h"
 
 namespace ringcraft {
 
@@ -254,6 +255,18 @@ Result<Action> compile(const Document& document, const SheetAction& sheet) {
   }
 }
 
+// The attack at its other distances, from the guard that it starts in.
+std::vector<Action> variants(const SheetAction& sheet, const Action& action) {
+  std::vector<Action> result;
+  for (const auto& [name, by] : sheet.variants) {
+    const Pose& guard = action.clip.frames.front();
+    result.push_back(moved_reach(body(), action, guard, by * kCanonicalHeight));
+    result.back().name += "_" + name;
+    result.back().source += "_" + name;
+  }
+  return result;
+}
+
 Result<std::vector<Action>> compile_all(const Document& document) {
   auto sheets = sheet_actions(document);
   if (!sheets) return tl::unexpected(sheets.error());
@@ -261,7 +274,9 @@ Result<std::vector<Action>> compile_all(const Document& document) {
   for (const SheetAction& sheet : *sheets) {
     auto action = compile(document, sheet);
     if (!action) return tl::unexpected(action.error());
+    const std::vector<Action> varied = variants(sheet, *action);
     actions.push_back(std::move(*action));
+    actions.insert(actions.end(), varied.begin(), varied.end());
   }
   return actions;
 }

@@ -106,6 +106,8 @@ struct SheetAction {
   float chain = 0;  // s between the links pelvis, chest and arm
   float bounce_hz = 0, bounce = 0;  // Hz, amplitude as a fraction of height
   float sway = 0;                   // of the hands, standard deviation as a fraction of height
+  // The same attack at other distances: end of its name, and fraction of height farther away.
+  std::map<std::string, float> variants;
   std::optional<Vec2> root_time;
   std::vector<SheetKey> keys;
   std::vector<SheetStep> steps;

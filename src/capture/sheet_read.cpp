@@ -193,6 +193,9 @@ class Reader {
       result.bounce_hz = number(table["bounce"][0]);
       result.bounce = number(table["bounce"][1]);
     }
+    if (table.contains("variants")) {
+      for (const auto& [name, by] : table["variants"].items()) result.variants[name] = number(by);
+    }
     if (table.contains("root")) result.root_time = pair_of(table["root"]);
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "base/hash.h"
 #include "io/events.h"
@@ -80,11 +82,37 @@ double mean_distance(const Timeline& timeline, std::size_t fighter) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
+// What a fighter launched of its own will, and which action most.
+struct Launches {
+  int count = 0;
+  double per_second = 0, most_share = 0;
+  std::string most;
+};
+
+Launches launches_of(const FighterTrack& track) {
+  std::map<std::string, int> by_name;
+  Launches result;
+  for (const Segment& segment : track.segments) {
+    if (segment.kind == Kind::response || segment.kind == Kind::get_up) continue;
+    ++by_name[segment.name];
+    ++result.count;
+  }
+  int times = 0;
+  for (const auto& [name, count] : by_name) {
+    if (count > times) result.most = name, times = count;
+  }
+  const double length = seconds(static_cast<Tick>(track.frames.size()));
+  if (length > 0) result.per_second = result.count / length;
+  if (result.count > 0) result.most_share = static_cast<double>(times) / result.count;
+  return result;
+}
+
 json fighters_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
                    const RunFacts& facts) {
   json fighters = json::array();
   for (std::size_t i = 0; i < timeline.tracks.size(); ++i) {
     const Tally tally = tally_of(timeline, FighterId(i));
+    const Launches launches = launches_of(timeline.tracks[i]);
     const RunFacts::Contestant contestant =
         i < facts.contestants.size() ? facts.contestants[i] : RunFacts::Contestant{};
     fighters.push_back({{"name", i < looks.size() ? looks[i].name : ""},
@@ -105,6 +133,10 @@ json fighters_json(const Timeline& timeline, const std::vector<FighterLook>& loo
                           {"right_arm", rounded(contestant.injuries[1], 4)},
                           {"left_leg", rounded(contestant.injuries[2], 4)},
                           {"right_leg", rounded(contestant.injuries[3], 4)}}},
+                        {"launches", launches.count},
+                        {"launches_per_s", rounded(launches.per_second, 4)},
+                        {"most_launched", launches.most},
+                        {"most_launched_share", rounded(launches.most_share, 4)},
                         {"mean_distance_m", rounded(mean_distance(timeline, i), 4)}});
   }
   return fighters;

@@ -65,10 +65,28 @@ TEST(Report, HasEveryFieldOfTheDesign) {
   for (const json& fighter : report["fighters"]) {
     for (const char* name :
          {"name", "style", "horizon_s", "strikes", "landed", "blocked", "missed", "defenses",
-          "hits_taken", "recovery_steps", "knockdowns", "knockouts", "mean_distance_m"}) {
+          "hits_taken", "recovery_steps", "knockdowns", "knockouts", "mean_distance_m", "launches",
+          "launches_per_s", "most_launched", "most_launched_share"}) {
       EXPECT_TRUE(fighter.contains(name)) << name;
     }
   }
+}
+
+TEST(Report, SaysHowMuchAndHowVariedAFighterLaunches) {
+  Timeline timeline = sample::timeline();
+  FighterTrack& track = timeline.tracks[0];
+  track.segments.clear();
+  for (const char* name : {"jab", "idle", "jab", "absorb"}) {
+    const bool answers = std::string(name) == "absorb";
+    track.segments.push_back({Launch{}, name, answers ? Kind::response : Kind::attack});
+  }
+  const auto length = static_cast<double>(track.frames.size()) / kTicksPerSecond;
+  const json report = report_json(timeline, sample::looks(), sample::library(), facts());
+  const json& fighter = report["fighters"][0];
+  EXPECT_EQ(fighter["launches"], 3);
+  EXPECT_NEAR(fighter["launches_per_s"].get<double>(), 3 / length, 1e-3);
+  EXPECT_EQ(fighter["most_launched"], "jab");
+  EXPECT_NEAR(fighter["most_launched_share"].get<double>(), 2.0 / 3, 1e-3);
 }
 
 TEST(Report, CountsWhatHappened) {
