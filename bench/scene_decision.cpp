@@ -1,0 +1,61 @@
+// Decisions of the default duel on the default library, taken again with every impulse step known:
+// what the search itself costs. From the top folder of the checkout:
+//   ringcraft_scene_bench --benchmark_repetitions=5
+// `nodes` and `values` (a sum over the best lines) say whether two builds searched the same trees.
+#include <benchmark/benchmark.h>
+
+#include "base/file.h"
+#include "capture/library_builder.h"
+#include "planner/impact_store.h"
+#include "scene/moments.h"
+
+namespace ringcraft {
+namespace {
+
+void decisions_known(benchmark::State& bench) {
+  const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
+  if (!library) return bench.SkipWithError(library.error().what.c_str());
+  SceneFile scene;
+  scene.name = "decisions";
+  scene.duration = ticks(6);
+  for (int i = 0; i < 2; ++i) {
+    SceneFighter fighter;
+    fighter.team = i;
+    fighter.placement = {0, i == 0 ? -0.6f : 0.6f, i == 0 ? 0 : kPi};
+    scene.fighters.push_back(fighter);
+  }
+  const auto store = std::make_shared<ImpactStore>();
+  FightOptions options;
+  options.impacts = store;
+  const std::vector<Moment> moments = moments_of(*library, scene, options);
+  std::vector<Contender> contenders;
+  for (const SceneFighter& one : scene.fighters) {
+    contenders.push_back({make_body(one.body), one.style});
+  }
+  Planner planner(*library, contenders, scene.planner, scene.seed, store);
+  std::uint64_t nodes = 0;
+  Tick horizons = 0;
+  std::int64_t values = 0;
+  const auto decide = [&] {
+    nodes = 0, values = 0, horizons = 0;
+    for (const Moment& one : moments) {
+      const Plan plan = planner.plan(one.state, one.fighter, one.last_contact);
+      nodes += plan.record.nodes;
+      horizons += plan.record.horizon;
+      values += plan.record.lines.empty() ? 0 : plan.record.lines.front().score;
+    }
+  };
+  decide();  // looks at trees other than the bout's own: nothing was noted as used
+  for (auto _ : bench) decide();
+  bench.counters["decisions"] = static_cast<double>(moments.size());
+  bench.counters["horizon"] = seconds(horizons) / static_cast<double>(moments.size());
+  bench.counters["nodes"] = static_cast<double>(nodes);
+  bench.counters["values"] = static_cast<double>(values);
+  bench.counters["us/node"] = benchmark::Counter(
+      static_cast<double>(nodes) * 1e-6,
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(decisions_known)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace ringcraft
