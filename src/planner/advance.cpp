@@ -286,9 +286,6 @@ std::int32_t Duel::advance(Node& node, const Move& move) {
   const Tick to = meet(node, end, move, fault);
   judge_evasions(node, from, to);
   add_location(node, from, to);
-  if (!move.forced && setup_->settings.prune.penetration) {
-    fault += penetration_fault(node, move.side, from, to);
-  }
   node.now = to;
   return fault;
 }

@@ -172,6 +172,17 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
 }
 
 Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
+  Child<Node> child = step(node, move);
+  check(node, move, child);
+  return child;
+}
+
+void Duel::check(const Node& node, const Move& move, Child<Node>& child) {
+  if (move.forced || !setup_->settings.prune.penetration) return;
+  child.fault += penetration_fault(child.node, move.side, node.now, child.node.now);
+}
+
+Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   Child<Node> child{node, 0};
   Duelist& self = child.node.side[move.side];
   Duelist& other = child.node.side[static_cast<std::size_t>(1 - move.side)];

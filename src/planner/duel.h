@@ -123,6 +123,9 @@ class Duel {
   std::uint64_t hash(const Node& node) const;
   void moves(const Node& node, std::vector<Move>& moves);
   Child<Node> apply(const Node& node, const Move& move);
+  // The same in two parts: check() adds to the fault how far bodies penetrate on the way.
+  Child<Node> step(const Node& node, const Move& move);
+  void check(const Node& node, const Move& move, Child<Node>& child);
   std::uint32_t key(const Move& move) const {
     return static_cast<std::uint32_t>(move.action.value) * 2 + move.side;
   }

@@ -61,7 +61,10 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
   { game.moves(node, moves) } -> std::same_as<void>;
   { game.apply(node, move) } -> std::same_as<Child<typename G::Node>>;
   { game.key(move) } -> std::same_as<std::uint32_t>;
-};  // and, if it likes, context(node): what a move is an answer to, as a number
+};
+// And, if it likes: context(node), what a move is an answer to, as a number; step(node, move) and
+// check(node, move, child), which together are apply(): the part of a fault that costs much is
+// added by check(), and is not asked for where the child cannot matter.
 
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
 inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
@@ -302,7 +305,17 @@ class Search {
     };
     for (std::size_t i = 0; i < here.moves.size(); ++i) {
       const Move move = here.moves[i];
-      const Child<Node> child = game.apply(node, move);
+      Child<Node> child = step(game, node, move);
+      if (any && child.fault == 0 && game.terminal(child.node)) {
+        // An end outside of the window, beside a sound child: whether it is struck off is the same.
+        const std::int32_t value = game.value(child.node);
+        if (max ? value <= alpha : value >= beta) {
+          ++counts_.nodes, ++counts_.leaves;
+          found.value = max ? std::max(found.value, value) : std::min(found.value, value);
+          continue;
+        }
+      }
+      check(game, node, move, child);
       if (child.fault > 0) {
         if (least_fault.lowered_by(child.fault, game.key(move))) {
           spare = child.node, spare_index = i;
@@ -356,6 +369,17 @@ class Search {
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
+  }
+
+  static Child<Node> step(G& game, const Node& node, const Move& move) {
+    if constexpr (requires { game.step(node, move); }) {
+      return game.step(node, move);
+    } else {
+      return game.apply(node, move);
+    }
+  }
+  static void check(G& game, const Node& node, const Move& move, Child<Node>& child) {
+    if constexpr (requires { game.check(node, move, child); }) game.check(node, move, child);
   }
 
   // What a move answers, where the game says so: the same number for the same thing.
