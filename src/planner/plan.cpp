@@ -19,6 +19,7 @@ constexpr std::size_t kMostLines = 6;
 constexpr double kRarityKept = 0.9;     // phi <- 0.9 phi + 0.1 [launched]
 constexpr Tick kHorizonStep = 30;       // 0.25 s: grid of shorter horizons under a node limit
 constexpr Tick kFirstHorizon = 90;      // 0.75 s
+constexpr Tick kDeepeningStep = 60;     // 0.5 s
 constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
 constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured
 constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
@@ -203,8 +204,8 @@ Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup, const Du
   return result;
 }
 
-// Iterative deepening by time, only under a limit: a short horizon first, whose growth tells how
-// far the limit will carry.
+// Iterative deepening by time: a short horizon first, whose best moves order the next and whose
+// growth tells how far a limit will carry.
 Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state,
                                  const SoftChoice& preference, const PlanLimits& limits) const {
   const Style& style = *setup.side[0].style;
@@ -223,9 +224,7 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
   RootSearch<Duel> search(search_settings, settings.threads, settings.alpha_beta);
   const std::uint64_t limit = settings.node_limit;
   Searched best;
-  const bool limited = limit != 0 || limits.any();
-  Tick horizon =
-      limited ? std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon) : wanted;
+  Tick horizon = std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon);
   double growth = kFirstGrowth;
   std::uint64_t nodes_before = 0;
   while (true) {
@@ -245,19 +244,21 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
       growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / half_seconds));
     }
     nodes_before = search.spent();
-    if (limits.any()) {  // the next step, where what is left of the time should pay for it
-      const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
-      const double next = spent.count() * std::sqrt(growth);
-      if (limits.seconds > 0 && spent.count() + next > limits.seconds) break;
-      horizon = std::min(wanted, horizon + kHorizonStep);
-      continue;
+    // The next step, where what is left should pay for it.
+    const auto after = [&](Tick step) {
+      return std::pow(growth, static_cast<double>(step) / static_cast<double>(kDeepeningStep));
+    };
+    Tick step = limits.any() ? kHorizonStep : kDeepeningStep;
+    if (limit != 0) {
+      const double room = static_cast<double>(limit) / nodes;
+      while (step > 0 && after(step) > room) step -= kHorizonStep;
     }
-    // The longest horizon of the grid that the limit should pay for, half of it kept in hand.
-    const double room = 0.5 * static_cast<double>(limit) / nodes;
-    const double steps = room > 1 ? std::log(room) / std::log(growth) * 2 : 0;
-    const auto further = static_cast<Tick>(std::min(steps, 100.0)) * kHorizonStep;
-    if (further <= 0) break;
-    horizon = std::min(wanted, horizon + further);
+    if (limits.seconds > 0) {
+      const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
+      if (spent.count() * (1 + after(step)) > limits.seconds) break;
+    }
+    if (step <= 0) break;
+    horizon = std::min(wanted, horizon + step);
   }
   return best.roots.empty() ? weighed_by_first_step(setup, root, preference) : std::move(best);
 }
