@@ -77,9 +77,10 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
 }  // namespace
 
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
-                                      const SweptBody& target) {
+                                      const SweptBody& target, std::uint32_t target_parts) {
   std::optional<Contact> hit, block;
   for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (((target_parts >> i) & 1u) == 0) continue;
     const Part part = part_at(i);
     const auto c = first_touch(attacker, striker, target, part);
     if (!c) continue;
@@ -93,12 +94,12 @@ std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
 }
 
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
-                                      const SweptBody& target) {
+                                      const SweptBody& target, std::uint32_t target_parts) {
   const std::uint32_t parts = striking_parts(strike);
   std::optional<Contact> first;
   for (std::size_t i = 0; i < kPartCount; ++i) {
     if (!((parts >> i) & 1u)) continue;
-    const auto c = strike_contact(attacker, part_at(i), target);
+    const auto c = strike_contact(attacker, part_at(i), target, target_parts);
     if (c && (!first || c->share < first->share)) first = c;
   }
   return first;

@@ -27,12 +27,12 @@ struct Contact {
 // First contact of `striker` with a part of the target in the interval, or nothing. A guard part in
 // the way is a block. Only an approaching striker makes contact.
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
-                                      const SweptBody& target);
+                                      const SweptBody& target, std::uint32_t target_parts = ~0u);
 
 // The same for whatever part of the limb the strike can land with (striking_parts): the earliest
-// one.
+// one. Of the target, only `target_parts` (bit index(part)) are looked at.
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
-                                      const SweptBody& target);
+                                      const SweptBody& target, std::uint32_t target_parts = ~0u);
 
 // First contact of a falling body with another, by its trunk, its head, a thigh or an upper arm,
 // which itself moves toward the other at `least` m/s or faster: who walks into somebody that falls

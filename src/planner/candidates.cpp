@@ -76,6 +76,8 @@ struct Duel::Aspect {
   };
   const SideSetup* own = nullptr;
   const InFlight* opponent = nullptr;
+  Tick opponent_still = 0;  // from when the opponent's root rests, where nothing follows
+  Vec3 opponent_then{};     // world: where
   bool opponent_down = false;
   bool late = false;    // the opponent's attack is too young to be answered by a particular defense
   Tick now = 0;         // when the candidate starts: after its path
@@ -85,6 +87,9 @@ struct Duel::Aspect {
   double ring_half = 0;
   std::vector<Threat> threats;
 
+  Vec3 opponent_at(Tick tick) const {
+    return tick >= opponent_still ? opponent_then : opponent->root_at(tick).position();
+  }
   double ropes(Vec3 at) const {
     return ring_half > 0 ? ring_half - static_cast<double>(std::max(std::abs(at.x), std::abs(at.z)))
                          : 1e3;
@@ -133,7 +138,7 @@ Duel::Aspect::Ending Duel::Aspect::ending(const NextAction& next, const Frame& s
                                           const Aim& aim) const {
   Ending end;
   end.root = start.to_outer(aim.out({next.end.x, 0, next.end.z}));
-  const Vec3 then = opponent->root_at(now + next.length).position() - end.root;
+  const Vec3 then = opponent_at(now + next.length) - end.root;
   end.distance = std::sqrt(then.x * then.x + then.z * then.z);
   // Facing at the end: the start's, turned by the aim and by the clip.
   const Vec3 ahead = aim.out({next.end.sine, 0, next.end.cosine});
@@ -156,7 +161,7 @@ double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& 
   for (std::size_t i = 0; i < table.strikes.size(); ++i) {
     const StrikeTable& strike = table.strikes[i];
     const Tick tick = now + strike.landing_tick;
-    const Vec3 target = aim.into(start.to_inner(opponent->root_at(tick).position()));
+    const Vec3 target = aim.into(start.to_inner(opponent_at(tick)));
     const float reach = reaching(strike, target);
     if (reach <= 0) continue;
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
@@ -176,6 +181,9 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   aspect.opponent_down = other.balance == 2 && !setup_->settings.hits_on_downed;
   aspect.end = Frame(self.flight.root_at(node.now));
   aspect.opponent_now = other.flight.root_at(node.now).position();
+  aspect.opponent_still =
+      std::max(other.flight.aimed_from, other.flight.launch.start + other.flight.table->length);
+  aspect.opponent_then = other.flight.root_at(aspect.opponent_still).position();
   aspect.ring_half = setup_->settings.ring_half_m;
   const Tick age = node.now - other.flight.launch.start;
   aspect.late =

@@ -43,6 +43,16 @@ std::array<Sphere, kPartCount> spheres_of(const BodyCapsules& capsules) {
   return spheres;
 }
 
+float travel_of(const Capsule& before, const Capsule& after) {
+  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
+}
+
+std::array<float, kPartCount> travels_of(const BodyCapsules& before, const BodyCapsules& after) {
+  std::array<float, kPartCount> rows{};
+  for (std::size_t i = 0; i < kPartCount; ++i) rows[i] = travel_of(before[i], after[i]);
+  return rows;
+}
+
 StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
   StrikeTable result;
   result.strike = strike;
@@ -77,6 +87,8 @@ ActionTable action_table(const Action& action, const BodyModel& body) {
     table.pose.push_back(pose);
     table.root.push_back(scaled(action.clip.root[i], body.scale));
     table.capsules.push_back(capsules(body, world_pose(body.skeleton, pose)));
+    const BodyCapsules& before = table.capsules[i > 0 ? i - 1 : 0];
+    table.travel.push_back(travels_of(before, table.capsules.back()));
     table.bound.push_back(bound_of(table.capsules.back()));
     table.box.push_back(box_of(table.capsules.back()));
     table.spheres.push_back(spheres_of(table.capsules.back()));
@@ -111,6 +123,27 @@ bool touches(const BodyCapsules& striker, std::uint32_t parts, const Box& box) {
     if (glm::distance2(center, glm::clamp(center, box.low, box.high)) < reach * reach) return true;
   }
   return false;
+}
+
+// The target's parts that the strike's may meet in the tick, by the spheres around them where it
+// begins and by how far they go.
+std::uint32_t parts_near(const SweptBody& striker, std::uint32_t parts,
+                         const std::array<Sphere, kPartCount>& target,
+                         const std::array<float, kPartCount>& travel) {
+  constexpr float kRounding = 2e-3f;  // m
+  std::uint32_t near = 0;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    if (((parts >> i) & 1u) == 0) continue;
+    const Capsule& c = striker.before[i];
+    const Vec3 center = (c.a + c.b) * 0.5f;
+    const float reach =
+        0.5f * glm::distance(c.a, c.b) + c.radius + travel_of(c, striker.after[i]) + kRounding;
+    for (std::size_t j = 0; j < kPartCount; ++j) {
+      const float far = reach + target[j].radius + travel[j];
+      if (glm::distance2(center, target[j].center) < far * far) near |= 1u << j;
+    }
+  }
+  return near;
 }
 
 std::uint32_t intended(const InFlight& who, Tick tick) {
@@ -219,19 +252,11 @@ InFlight::InFlight(const MotionTables& tables, const Launch& of)
   if (of.aim != 0) aimed_from = of.start + aim_ticks(*table->action);
 }
 
-Frame InFlight::frame_at(Tick tick) const {
-  if (launch.aim == 0 || tick >= aimed_from) return aimed;
+Frame InFlight::frame_while_aiming(Tick tick) const {
   const float share = aim_share(*table->action, age(tick));
   Placement turned = launch.placement;
   turned.yaw += launch.aim * share;
   return Frame(turned);
-}
-
-Placement InFlight::root_at(Tick tick) const {
-  const Frame frame = frame_at(tick);
-  const Placement& root = table->root_at(age(tick));
-  const Vec3 at = frame.to_outer(root.position());
-  return {at.x, at.z, frame.yaw + root.yaw};
 }
 
 bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlight& target) {
@@ -247,10 +272,13 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
   const Tick age = target.age(tick);
   if (!touches(striker.after, strike.parts, target.table->box_at(age))) return std::nullopt;
   put_striker(attacker, strike.parts, target, tick - 1, striker.before);
+  const std::uint32_t near = parts_near(striker, strike.parts, target.table->spheres_at(age - 1),
+                                        target.table->travel_at(age));
+  if (near == 0) return std::nullopt;
   SweptBody struck;
   struck.before = target.table->capsules_at(age - 1);
   struck.after = target.table->capsules_at(age);
-  return strike_contact(striker, strike.strike, struck);
+  return strike_contact(striker, strike.strike, struck, near);
 }
 
 float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least) {

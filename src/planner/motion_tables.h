@@ -73,6 +73,7 @@ struct ActionTable {
   Tick length = 0;
   std::vector<BodyCapsules> capsules;                   // action space, one a tick
   std::vector<std::array<Sphere, kPartCount>> spheres;  // around the capsules
+  std::vector<std::array<float, kPartCount>> travel;    // m: how far each goes in the tick before
   std::vector<Placement> root;                          // scaled to the body
   std::vector<Box> box;                                 // around the capsules
   std::vector<Sphere> bound;                            // of the capsules
@@ -89,6 +90,7 @@ struct ActionTable {
   const Placement& root_at(Tick age) const { return root[at(age)]; }
   const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
   const std::array<Sphere, kPartCount>& spheres_at(Tick age) const { return spheres[at(age)]; }
+  const std::array<float, kPartCount>& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
   const NextAction* find_next(ActionId to) const;
@@ -125,8 +127,18 @@ struct InFlight {
   InFlight() = default;
   InFlight(const MotionTables& tables, const Launch& launch);
   Tick age(Tick tick) const { return tick - launch.start; }
-  Frame frame_at(Tick tick) const;
-  Placement root_at(Tick tick) const;
+  Frame frame_at(Tick tick) const {
+    return launch.aim == 0 || tick >= aimed_from ? aimed : frame_while_aiming(tick);
+  }
+  Placement root_at(Tick tick) const {
+    const Frame frame = frame_at(tick);
+    const Placement& root = table->root_at(age(tick));
+    const Vec3 at = frame.to_outer(root.position());
+    return {at.x, at.z, frame.yaw + root.yaw};
+  }
+
+ private:
+  Frame frame_while_aiming(Tick tick) const;
 };
 
 // The first contact of a strike over the tick that ends at `tick`, in the action space of the
