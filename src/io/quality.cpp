@@ -51,6 +51,22 @@ double percentile_99(std::vector<float>& values) {
   return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
+void add_penetration(std::vector<float>& depths, FightQuality& quality) {
+  if (depths.empty()) return;
+  const auto deepest = std::max_element(depths.begin(), depths.end());
+  quality.penetration_max_m = *deepest;
+  if (*deepest > 0) {
+    quality.penetration_max_at_s = seconds(static_cast<Tick>(deepest - depths.begin()));
+  }
+  Tick longest = 0, current = 0;
+  for (const float depth : depths) {
+    current = depth > kDeep ? current + 1 : 0;
+    longest = std::max(longest, current);
+  }
+  quality.penetration_longest_s = seconds(longest);
+  quality.penetration_p99_m = percentile_99(depths);  // sorts
+}
+
 // Which ticks a fighter spends in actions that it chose.
 std::vector<bool> chosen_ticks(const FighterTrack& track) {
   std::vector<bool> chosen(track.frames.size(), false);
@@ -119,8 +135,7 @@ FightQuality quality_of(const Timeline& timeline, const std::vector<BodyModel>& 
                         const MotionLibrary& library) {
   FightQuality quality;
   std::vector<float> depths = penetration_by_tick(timeline, bodies, library);
-  quality.penetration_p99_m = percentile_99(depths);
-  if (!depths.empty()) quality.penetration_max_m = depths.back();
+  add_penetration(depths, quality);
   std::vector<float> wrist_speeds;
   const std::size_t count = std::min(timeline.tracks.size(), bodies.size());
   for (std::size_t i = 0; i < count; ++i) {

@@ -13,6 +13,8 @@ struct FightQuality {
   double penetration_p99_m =
       0;  // 99th percentile over ticks of the deepest penetration of any pair
   double penetration_max_m = 0;
+  double penetration_max_at_s = 0;           // when; 0 where there is none
+  double penetration_longest_s = 0;          // longest time without a break deeper than kDeep
   double foot_skate_ratio = 0;               // motion/quality.h, mean over fighters
   std::uint64_t joint_limit_violations = 0;  // joints times ticks beyond their range
   // m/s: 99th percentile over all wrists and ticks of chosen actions (neither answers to hits nor
@@ -21,7 +23,8 @@ struct FightQuality {
 };
 
 inline constexpr float kJointTolerance =
-    3.0f * kPi / 180.0f;  // rad: beyond a range by less is none
+    3.0f * kPi / 180.0f;               // rad: beyond a range by less is none
+inline constexpr float kDeep = 0.03f;  // m: bodies that overlap by more are seen to
 inline constexpr Tick kIntendedContact =
     12;  // ticks after a strike's active time that its limb may touch
 

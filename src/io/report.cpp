@@ -225,6 +225,8 @@ json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks
           {"quality",
            {{"penetration_p99_m", rounded(quality.penetration_p99_m, 5)},
             {"penetration_max_m", rounded(quality.penetration_max_m, 5)},
+            {"penetration_max_at_s", rounded(quality.penetration_max_at_s, 3)},
+            {"penetration_longest_s", rounded(quality.penetration_longest_s, 3)},
             {"foot_skate_ratio", rounded(quality.foot_skate_ratio, 5)},
             {"joint_limit_violations", quality.joint_limit_violations},
             {"wrist_speed_p99_mps", rounded(quality.wrist_speed_p99_mps, 3)}}}};

@@ -56,6 +56,8 @@ TEST(Report, HasEveryFieldOfTheDesign) {
                               "/physics/foreseen_agreement",
                               "/quality/penetration_p99_m",
                               "/quality/penetration_max_m",
+                              "/quality/penetration_max_at_s",
+                              "/quality/penetration_longest_s",
                               "/quality/foot_skate_ratio",
                               "/quality/joint_limit_violations",
                               "/quality/wrist_speed_p99_mps"}) {
@@ -161,6 +163,22 @@ TEST(Quality, BodiesApartDoNotPenetrateAndBodiesWithinEachOtherDo) {
   const FightQuality within = quality_of(standing(0.15f, "idle"), bodies(), sample::library());
   EXPECT_GT(within.penetration_max_m, 0.1);
   EXPECT_GE(within.penetration_max_m, within.penetration_p99_m);
+}
+
+TEST(Quality, SaysWhenBodiesAreDeepestAndForHowLongTheyAreDeep) {
+  const FightQuality apart = quality_of(standing(2.0f, "idle"), bodies(), sample::library());
+  EXPECT_EQ(apart.penetration_max_at_s, 0);
+  EXPECT_EQ(apart.penetration_longest_s, 0);
+  Timeline meeting = standing(2.0f, "idle");
+  std::vector<Pose>& frames = meeting.tracks[1].frames;
+  const std::size_t half = frames.size() / 2;
+  ASSERT_GT(half, 10u);
+  for (std::size_t i = half; i < half + 10; ++i) {  // for ten ticks, deepest in the fourth
+    frames[i].hips.z -= i == half + 3 ? 1.9f : 1.85f;
+  }
+  const FightQuality met = quality_of(meeting, bodies(), sample::library());
+  EXPECT_NEAR(met.penetration_max_at_s, seconds(static_cast<Tick>(half) + 3), 1e-6);
+  EXPECT_NEAR(met.penetration_longest_s, seconds(10), 1e-6);
 }
 
 TEST(Quality, TheStrikesIntendedContactIsExcepted) {
