@@ -52,10 +52,11 @@ struct Measure {
 
 class Measures {
  public:
-  // Every number directly in `object`.
+  // Every number directly in `object`, moments (`..._at_s`) aside: they have no mean.
   void add(const std::string& of, const json& object) {
     for (const auto& [name, value] : object.items()) {
-      if (value.is_number()) at(of, name).values.push_back(value.get<double>());
+      if (value.is_number() && !name.ends_with("_at_s"))
+        at(of, name).values.push_back(value.get<double>());
     }
   }
   const std::vector<Measure>& all() const { return all_; }

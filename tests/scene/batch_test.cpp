@@ -75,7 +75,8 @@ Batch by_hand() {
   for (const int strikes : {1, 2, 3, 6}) {
     batch.bouts[seed] =
         R"({"fighters":[{"landed":1,"name":"A","strikes":)" + std::to_string(strikes) +
-        R"(},{"name":"A","strikes":0}],"scene":"yard","seed":)" + std::to_string(seed) + "}";
+        R"(},{"name":"A","strikes":0}],"physics":{"deepest_at_s":)" + std::to_string(strikes) +
+        R"(},"scene":"yard","seed":)" + std::to_string(seed) + "}";
     ++seed;
   }
   return batch;
@@ -100,6 +101,8 @@ TEST(BatchSummary, MeansHaveIntervalsAndNamesakesStandApart) {
   EXPECT_EQ(std::get<double>(landed[4]), 1);
   EXPECT_EQ(std::get<double>(row("A 1", "strikes")[7]), 0);
   EXPECT_EQ(std::get<std::int64_t>(row("A 1", "strikes")[2]), 4);
+  for (const auto& cells : study.table.rows)
+    EXPECT_NE(std::get<std::string>(cells[1]), "deepest_at_s") << "moments have no mean";
 }
 
 TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
