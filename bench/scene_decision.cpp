@@ -1,5 +1,5 @@
 // Decisions of the default duel on the default library, taken again with every impulse step known:
-// what the search itself costs. From the top folder of the checkout:
+// what the search itself costs.
 //   ringcraft_scene_bench --benchmark_repetitions=5
 // `nodes` and `values` (a sum over the best lines) say whether two builds searched the same trees.
 #include <benchmark/benchmark.h>
@@ -15,24 +15,17 @@ namespace {
 void decisions_known(benchmark::State& bench) {
   const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
   if (!library) return bench.SkipWithError(library.error().what.c_str());
-  SceneFile scene;
-  scene.name = "decisions";
-  scene.duration = ticks(6);
-  for (int i = 0; i < 2; ++i) {
-    SceneFighter fighter;
-    fighter.team = i;
-    fighter.placement = {0, i == 0 ? -0.6f : 0.6f, i == 0 ? 0 : kPi};
-    scene.fighters.push_back(fighter);
-  }
+  const auto scene = read_scene("duel", {"duration_s=6"});
+  if (!scene) return bench.SkipWithError(scene.error().what.c_str());
   const auto store = std::make_shared<ImpactStore>();
   FightOptions options;
   options.impacts = store;
-  const std::vector<Moment> moments = moments_of(*library, scene, options);
+  const std::vector<Moment> moments = moments_of(*library, *scene, options);
   std::vector<Contender> contenders;
-  for (const SceneFighter& one : scene.fighters) {
+  for (const SceneFighter& one : scene->fighters) {
     contenders.push_back({make_body(one.body), one.style});
   }
-  Planner planner(*library, contenders, scene.planner, scene.seed, store);
+  Planner planner(*library, contenders, scene->planner, scene->seed, store);
   std::uint64_t nodes = 0;
   Tick horizons = 0;
   std::int64_t values = 0;
