@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -172,7 +170,7 @@ int run_library_check(const std::string& name, const CheckHeights& heights,
   const double own = heights.own > 0 ? heights.own : static_cast<double>(kCanonicalHeight);
   const double opponent = heights.opponent > 0 ? heights.opponent : own;
   const auto ratio = static_cast<float>(opponent / own);
-  if (std::abs(ratio - 1) > kSameHeight) library = fitted(*library, ratio);
+  if (!as_tall(ratio)) library = fitted(*library, ratio);
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);
   if (options.json) {
     fmt::print("{}\n", json_of(check).dump(1));

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include <spdlog/spdlog.h>
@@ -96,8 +94,7 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   settings.threads = options.threads;
   settings.interrupted = &interrupted;
   const float ratio = defender->skeleton.height / attacker->skeleton.height;
-  const bool as_tall = std::abs(ratio - 1) <= kSameHeight;
-  const MotionLibrary blows = as_tall ? *library : fitted(*library, ratio);
+  const MotionLibrary blows = as_tall(ratio) ? *library : fitted(*library, ratio);
   const MotionTables attacks(blows, *attacker), defenses(*library, *defender);
   const Sparring found = spar(attacks, defenses, settings);
   if (interrupted) return 130;

@@ -118,6 +118,11 @@ void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, floa
       glm::normalize(glm::inverse(middle_world) * world.rotation[index(limb.end)]);
 }
 
+float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
+  return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
+         (skeleton.bone(limb.middle) + skeleton.bone(limb.end));
+}
+
 void set_world_rotation(const Skeleton& skeleton, Joint joint, Quat rotation, Pose& pose) {
   const WorldPose world = world_pose(skeleton, pose);
   pose.rotation[index(joint)] =

@@ -28,6 +28,9 @@ void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& ta
 void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, float soft_share,
                    Pose& pose);
 
+// How far a limb reaches, as a share of its length.
+float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world);
+
 // Sets the world rotation of one joint.
 void set_world_rotation(const Skeleton& skeleton, Joint joint, Quat rotation, Pose& pose);
 

@@ -51,12 +51,6 @@ float soft_positive(float x, float width) {
   return (x + width) * (x + width) / (4 * width);
 }
 
-// How far a limb reaches, as a share of its length.
-float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
-  return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
-         (skeleton.bone(limb.middle) + skeleton.bone(limb.end));
-}
-
 // Lowest height of the ball at which neither ball nor heel of a foot turned so is under the floor.
 float ball_floor(const Skeleton& skeleton, Quat foot) {
   const Vec3 heel = -skeleton.offset[index(Joint::left_toes)] - kUp * skeleton.ankle_height();

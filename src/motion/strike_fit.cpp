@@ -40,8 +40,7 @@ constexpr int kHeelRounds = 4;
 constexpr float kKicks = 0.05f;  // m of way at which a foot is wholly one that kicks
 
 float eased(float x) {
-  const float u = std::clamp(x, 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
+  return glm::smoothstep(0.0f, 1.0f, x);
 }
 
 bool by_foot(const Strike& strike) {
@@ -324,10 +323,7 @@ class Mover {
 
   // Share of its length to which a limb may straighten: as far as it does in the clip, or a little.
   float straightest(const Limb& limb, Tick t) const {
-    const WorldPose clip = world_pose(skeleton_, old().at(t));
-    const float length = skeleton_.bone(limb.middle) + skeleton_.bone(limb.end);
-    const float was =
-        glm::distance(clip.position[index(limb.end)], clip.position[index(limb.root)]) / length;
+    const float was = reach_share(skeleton_, limb, world_pose(skeleton_, old().at(t)));
     return std::clamp(was, kStraightestArm, 0.9999f);
   }
 
@@ -528,6 +524,10 @@ MotionLibrary fitted(const MotionLibrary& library, float ratio) {
                                     library.dropped(),
                                     library.notes(),
                                     library.switches()});
+}
+
+bool as_tall(float ratio) {
+  return std::abs(ratio - 1) <= 0.01f;
 }
 
 const Pose* standing_guard(const MotionLibrary& library) {

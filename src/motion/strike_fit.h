@@ -34,8 +34,8 @@ Action moved_reach(const Skeleton& skeleton, const Action& action, const Pose& g
 // same edges and paths. There is no motion graph.
 MotionLibrary fitted(const MotionLibrary& library, float ratio);
 
-// Heights that differ by less, as a share, need no clips of their own.
-inline constexpr float kSameHeight = 0.01f;
+// Whether somebody `ratio` times as tall needs no clips of his own: up to 1 % taller or shorter.
+bool as_tall(float ratio);
 
 // The pose in which a library's fighters stand before one who strikes: the first frame of its first
 // authored idle, or of any. Null where there is none.

@@ -23,11 +23,6 @@ Capsule between(const Capsule& a, const Capsule& b, float share) {
   return {glm::mix(a.a, b.a, share), glm::mix(a.b, b.b, share), a.radius};
 }
 
-// The farthest that any point of the axis travels (ends move on straight lines).
-float travel(const Capsule& before, const Capsule& after) {
-  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
-}
-
 // Displacement over the interval of the axis point nearest to `point`.
 Vec3 displacement(const Capsule& before, const Capsule& after, const Capsule& now, Vec3 point) {
   const Vec3 axis = now.b - now.a;
@@ -75,6 +70,10 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
 }
 
 }  // namespace
+
+float travel(const Capsule& before, const Capsule& after) {
+  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
+}
 
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
                                       const SweptBody& target, std::uint32_t target_parts) {

@@ -24,6 +24,9 @@ struct Contact {
   float share = 0;  // when between `before` (0) and `after` (1)
 };
 
+// The farthest that any point of the axis travels, m (ends move on straight lines).
+float travel(const Capsule& before, const Capsule& after);
+
 // First contact of `striker` with a part of the target in the interval, or nothing. A guard part in
 // the way is a block. Only an approaching striker makes contact.
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,

@@ -37,12 +37,6 @@ Pose snapped(Pose pose) {
   return pose;
 }
 
-float lowest(const BodyModel& body, const WorldPose& world, Side side) {
-  float low = 1e9f;
-  for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
-  return low;
-}
-
 // Moves an ankle by `offset`, the foot keeping its attitude.
 void move_ankle(const Skeleton& skeleton, Side side, Vec3 offset, Pose& pose) {
   const Limb limb = leg(side);
@@ -117,7 +111,9 @@ float ImpactFrame::in_yaw(float world) const {
 // all.
 void ImpactFrame::find_contacts(const BodyModel& body, FootContacts given) {
   const WorldPose world = world_pose(body.skeleton, pose_);
-  const auto near = [&](Side side, float height) { return lowest(body, world, side) < height; };
+  const auto near = [&](Side side, float height) {
+    return sole_height(body, world, side) < height;
+  };
   contacts_.left = given.left && near(Side::left, kMostGrounding);
   contacts_.right = given.right && near(Side::right, kMostGrounding);
   if (!contacts_.left && !contacts_.right) {
@@ -129,7 +125,8 @@ void ImpactFrame::find_contacts(const BodyModel& body, FootContacts given) {
 void ImpactFrame::put_on_ground(const BodyModel& body) {
   if (!contacts_.left && !contacts_.right) return;
   const WorldPose world = world_pose(body.skeleton, pose_);
-  const float left = lowest(body, world, Side::left), right = lowest(body, world, Side::right);
+  const float left = sole_height(body, world, Side::left),
+              right = sole_height(body, world, Side::right);
   // The whole body first, so that its lower planted foot stands, then the other one alone.
   const float drop =
       contacts_.left && contacts_.right ? std::min(left, right) : (contacts_.left ? left : right);
@@ -178,7 +175,7 @@ Base standing_base(const BodyModel& body, const Ragdoll& ragdoll, FootContacts c
   const WorldPose world = world_pose(body.skeleton, ragdoll.pose());
   // A foot that is swept up carries less the higher it is: its corners draw back to the other foot.
   const auto lifted = [&](Side side) {
-    const float low = lowest(body, world, side);
+    const float low = sole_height(body, world, side);
     return contacts.of(side) ? std::clamp((low - kCarries) / (kLifted - kCarries), 0.0f, 1.0f)
                              : 1.0f;
   };

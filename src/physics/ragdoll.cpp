@@ -478,4 +478,11 @@ std::array<Vec3, 6> sole(const BodyModel& body, const WorldPose& world, Side sid
   return corners;
 }
 
+float sole_height(const BodyModel& body, const WorldPose& world, Side side) {
+  const auto corners = sole(body, world, side);
+  float low = corners[0].y;
+  for (const Vec3& corner : corners) low = std::min(low, corner.y);
+  return low;
+}
+
 }  // namespace ringcraft

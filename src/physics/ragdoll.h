@@ -67,4 +67,7 @@ class Ragdoll {
 // other.
 std::array<Vec3, 6> sole(const BodyModel& body, const WorldPose& world, Side side);
 
+// The height of the lowest of them, m.
+float sole_height(const BodyModel& body, const WorldPose& world, Side side);
+
 }  // namespace ringcraft

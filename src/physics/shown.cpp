@@ -168,9 +168,7 @@ bool trunk_down(const BodyModel& body, const Pose& pose) {
 }
 
 float depth_below_ground(const BodyModel& body, const WorldPose& world, Side side) {
-  float low = 0;
-  for (const Vec3& corner : sole(body, world, side)) low = std::min(low, corner.y);
-  return -low;
+  return -std::min(0.0f, sole_height(body, world, side));
 }
 
 // Lifts the end of a limb by `depth`, the limb bending the way it does.

@@ -25,11 +25,6 @@ Vec3 held_back(Vec3 off) {
   return off * ((kHeld + kRoom * (1 - std::exp((kHeld - far) / kRoom))) / far);
 }
 
-float reach_of(const Skeleton& skeleton, const Limb& limb, const WorldPose& world) {
-  return glm::distance(world.position[index(limb.root)], world.position[index(limb.end)]) /
-         (skeleton.bone(limb.middle) + skeleton.bone(limb.end));
-}
-
 }  // namespace
 
 StandingFeet::StandingFeet(const BodyModel& body, const ImpactFrame& frame) : body_(body) {
@@ -38,7 +33,7 @@ StandingFeet::StandingFeet(const BodyModel& body, const ImpactFrame& frame) : bo
   for (const Side side : {Side::left, Side::right}) {
     Foot& foot = feet_[static_cast<std::size_t>(side)];
     foot.ball = now.position[index(toes(side))];
-    foot.reach = reach_of(body.skeleton, leg(side), now);
+    foot.reach = reach_share(body.skeleton, leg(side), now);
     const float speed = glm::distance(foot.ball, before.position[index(toes(side))]) / kTickSeconds;
     foot.stands = frame.contacts().of(side) && speed < kStill;
   }
@@ -49,8 +44,7 @@ void StandingFeet::hold(Pose& pose) {
   for (const Side side : {Side::left, Side::right}) {
     Foot& foot = feet_[static_cast<std::size_t>(side)];
     const Vec3 ball = world.position[index(toes(side))];
-    float low = 1;
-    for (const Vec3& corner : sole(body_, world, side)) low = std::min(low, corner.y);
+    const float low = sole_height(body_, world, side);
     const float speed = glm::distance(foot.ball, ball) / kTickSeconds;
     foot.stands = foot.stands || (low < kLanded && speed < kStill);
     if (low > kLifted) {

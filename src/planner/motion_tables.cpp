@@ -43,13 +43,9 @@ std::array<Sphere, kPartCount> spheres_of(const BodyCapsules& capsules) {
   return spheres;
 }
 
-float travel_of(const Capsule& before, const Capsule& after) {
-  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
-}
-
 std::array<float, kPartCount> travels_of(const BodyCapsules& before, const BodyCapsules& after) {
   std::array<float, kPartCount> rows{};
-  for (std::size_t i = 0; i < kPartCount; ++i) rows[i] = travel_of(before[i], after[i]);
+  for (std::size_t i = 0; i < kPartCount; ++i) rows[i] = travel(before[i], after[i]);
   return rows;
 }
 
@@ -129,7 +125,7 @@ bool touches(const BodyCapsules& striker, std::uint32_t parts, const Box& box) {
 // begins and by how far they go.
 std::uint32_t parts_near(const SweptBody& striker, std::uint32_t parts,
                          const std::array<Sphere, kPartCount>& target,
-                         const std::array<float, kPartCount>& travel) {
+                         const std::array<float, kPartCount>& travels) {
   constexpr float kRounding = 2e-3f;  // m
   std::uint32_t near = 0;
   for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -137,9 +133,9 @@ std::uint32_t parts_near(const SweptBody& striker, std::uint32_t parts,
     const Capsule& c = striker.before[i];
     const Vec3 center = (c.a + c.b) * 0.5f;
     const float reach =
-        0.5f * glm::distance(c.a, c.b) + c.radius + travel_of(c, striker.after[i]) + kRounding;
+        0.5f * glm::distance(c.a, c.b) + c.radius + travel(c, striker.after[i]) + kRounding;
     for (std::size_t j = 0; j < kPartCount; ++j) {
-      const float far = reach + target[j].radius + travel[j];
+      const float far = reach + target[j].radius + travels[j];
       if (glm::distance2(center, target[j].center) < far * far) near |= 1u << j;
     }
   }

@@ -1,7 +1,6 @@
 #include "scene/fight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -60,7 +59,7 @@ MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
   for (const SceneFighter& fighter : scene.fighters) {
     const float ratio = opponents_height(scene, fighter);
     auto& fit = fits[ratio];
-    if (fit == nullptr && std::abs(ratio - 1) > kSameHeight) {
+    if (fit == nullptr && !as_tall(ratio)) {
       fit = std::make_shared<const MotionLibrary>(in_stances(fitted(library, ratio)));
     }
     of_fighter.push_back(fit);

@@ -89,12 +89,8 @@ struct Answered {
 void first_step(const BodyModel& body, const FighterTrack& track, Tick hit, Answered& a) {
   constexpr float kStands = .012f, kOff = .025f;  // m: the lowest point of a sole that does, is not
   const auto low = [&](Tick t, Side side) {
-    float lowest = 1;
-    for (const Vec3& corner :
-         sole(body, world_pose(body.skeleton, track.frames[static_cast<std::size_t>(t)]), side)) {
-      lowest = std::min(lowest, corner.y);
-    }
-    return lowest;
+    const Pose& pose = track.frames[static_cast<std::size_t>(t)];
+    return sole_height(body, world_pose(body.skeleton, pose), side);
   };
   if (low(hit, Side::left) > kStands || low(hit, Side::right) > kStands) return;
   std::optional<Side> steps;
