@@ -86,6 +86,7 @@ nlohmann::json json_of(const LibraryCheck& check) {
                        {"turn_rad", m.turn_rad},
                        {"foot_skate", m.foot_skate},
                        {"limit_violations", m.limit_violations},
+                       {"worst_limit_deg", m.worst_limit_deg},
                        {"self_penetration_m", m.self_penetration_m},
                        {"still_hands", m.still_hands},
                        {"head_moves_m", m.head_moves_m},

@@ -9,17 +9,13 @@
 #include "motion/quality.h"
 #include "physics/body.h"
 #include "physics/penetration.h"
+#include "scene/library_check_gates.h"
 
 namespace ringcraft {
 
 namespace {
 
-constexpr float kLimitTolerance = radians(3);
-constexpr double kMostFootSkate = 0.01;
-constexpr double kMostSelfPenetration = 0.02;  // m
-constexpr double kMostAimError = 0.03;         // m
-constexpr float kStill = 0.15f;                // m/s
-constexpr double kMostSeamJump = 1.5;          // m/s
+constexpr float kStill = 0.15f;  // m/s
 
 double peak_speed(const Skeleton& skeleton, const Action& action) {
   double peak = 0;
@@ -36,16 +32,16 @@ double peak_speed(const Skeleton& skeleton, const Action& action) {
 }
 
 void measure_limits(const BodyModel& body, const Action& action, ActionMeasures& m) {
-  float most = 0;
   for (const Pose& pose : action.clip.frames) {
-    const std::vector<LimitViolation> found = limit_violations(body, pose, kLimitTolerance);
-    m.limit_violations += found.empty() ? 0u : 1u;
-    for (const LimitViolation& violation : found) {
-      if (violation.excess <= most) continue;
-      most = violation.excess;
-      m.worst_joint =
-          fmt::format("{} by {:.0f} degrees", vrm_name(violation.joint), degrees(violation.excess));
+    bool beyond = false;
+    for (const LimitViolation& violation : limit_violations(body, pose, 0)) {
+      const double excess = degrees(violation.excess);
+      beyond = beyond || excess > kMostBeyondDegrees;
+      if (excess <= m.worst_limit_deg) continue;
+      m.worst_limit_deg = excess;
+      m.worst_joint = fmt::format("{} by {:.0f} degrees", vrm_name(violation.joint), excess);
     }
+    m.limit_violations += beyond ? 1u : 0u;
   }
 }
 
@@ -75,7 +71,7 @@ std::array<std::uint32_t, kPartCount> touching(const BodyModel& body) {
 
 void measure_self_penetration(const BodyModel& body, const Action& action, ActionMeasures& m) {
   const auto allowed = touching(body);
-  std::vector<float> depths;
+  std::vector<float>& depths = m.self_depths_m;
   depths.reserve(action.clip.frames.size());
   float most = 0;
   for (const Pose& pose : action.clip.frames) {
@@ -168,30 +164,6 @@ std::vector<ActionMeasures> measure(const MotionLibrary& library) {
 
 namespace {
 
-// The middle value; 0 of none.
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-bool is_hand(const Strike& strike) {
-  return strike.joint == Joint::left_hand || strike.joint == Joint::right_hand;
-}
-
-template <class Wanted, class Value>
-std::vector<double> of_authored(const LibraryCheck& check, Wanted wanted, Value value) {
-  std::vector<double> values;
-  for (const StrikeMeasures& m : check.strikes) {
-    if (m.authored && wanted(m)) values.push_back(value(m));
-  }
-  return values;
-}
-
-auto of_kind(StrikeKind kind) {
-  return [kind](const StrikeMeasures& m) { return m.strike.kind == kind; };
-}
-
 void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
   for (const Action& action : library.actions()) {
     for (const std::string& fault : faults(action.clip)) {
@@ -247,17 +219,6 @@ void add_seam_faults(const MotionLibrary& library, LibraryCheck& check) {
   }
 }
 
-void add_seam_gates(LibraryCheck& check) {
-  if (check.seams.empty()) return;
-  std::vector<double> jumps;
-  jumps.reserve(check.seams.size());
-  for (const SeamMeasures& seam : check.seams) jumps.push_back(seam.jump);
-  std::sort(jumps.begin(), jumps.end());
-  const std::size_t n = jumps.size();
-  check.gates.push_back({"seams, jump of velocity, 99 %", jumps[n * 99 / 100], 0, 1, "m/s"});
-  check.gates.push_back({"seams, jump of velocity, worst", jumps[n - 1], 0, kMostSeamJump, "m/s"});
-}
-
 void add_kind_faults(const MotionLibrary& library, LibraryCheck& check) {
   if (!has_response(library, ResponseKind::absorb, 0))
     check.faults.emplace_back("no response that absorbs");
@@ -273,87 +234,6 @@ void add_kind_faults(const MotionLibrary& library, LibraryCheck& check) {
     check.faults.push_back("dropped: " + dropped);
 }
 
-// Validation table V1 and issue 4: speeds at the impact, in the world, on a body that stands.
-void add_speed_gates(LibraryCheck& check) {
-  const auto impact = [](const StrikeMeasures& m) { return m.impact; };
-  const auto start = [](const StrikeMeasures& m) { return m.start_to_contact_s; };
-  const auto straights = of_authored(check, of_kind(StrikeKind::straight), impact);
-  const auto hooks = of_authored(check, of_kind(StrikeKind::hook), impact);
-  const auto rounds = of_authored(check, of_kind(StrikeKind::roundhouse), impact);
-  const auto fronts = of_authored(check, of_kind(StrikeKind::front_kick), impact);
-  const auto extreme = [&](const std::vector<double>& values, const char* what, double least,
-                           double most) {
-    if (values.empty()) return;
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    check.gates.push_back({fmt::format("{}, slowest", what), *low, least, most, "m/s"});
-    check.gates.push_back({fmt::format("{}, median", what), median(values), least, most, "m/s"});
-    check.gates.push_back({fmt::format("{}, fastest", what), *high, least, most, "m/s"});
-  };
-  extreme(straights, "straights at the fist", 7, 11);
-  if (!hooks.empty() && !straights.empty()) {
-    check.gates.push_back(
-        {"hooks over straights, medians", median(hooks) / median(straights), 1.0, 1.6, ""});
-  }
-  extreme(rounds, "roundhouse at the foot", 11, 14);
-  if (!rounds.empty() && !fronts.empty()) {
-    check.gates.push_back(
-        {"roundhouse over front kick, medians", median(rounds) / median(fronts), 1.4, 1.5, ""});
-  }
-  const auto alone = [](const StrikeMeasures& m) {
-    return m.strike.kind == StrikeKind::roundhouse && m.number == 0;
-  };
-  const auto times = of_authored(check, alone, start);
-  if (!times.empty()) {
-    const auto [low, high] = std::minmax_element(times.begin(), times.end());
-    check.gates.push_back({"roundhouse, start to contact, quickest", *low, 0.4, 0.6, "s"});
-    check.gates.push_back({"roundhouse, start to contact, slowest", *high, 0.4, 0.6, "s"});
-  }
-}
-
-// Calibration sections 3 and 6: what falls when motion is robotic.
-void add_motion_gates(LibraryCheck& check) {
-  const auto punches = [](const StrikeMeasures& m) {
-    return is_hand(m.strike) && m.strike.kind != StrikeKind::backfist;
-  };
-  const auto rear = [&](const StrikeMeasures& m) {
-    return punches(m) && m.strike.joint == Joint::right_hand;
-  };
-  const auto share = of_authored(check, punches, [](const auto& m) { return m.peak_fraction; });
-  if (!share.empty()) {
-    check.gates.push_back({"peak of the hand's time, median", median(share), 0.55, 0.75, ""});
-    const auto ratio =
-        of_authored(check, punches, [](const auto& m) { return m.brake / std::max(1.0, m.push); });
-    check.gates.push_back({"brake over push, median", median(ratio), 1.3, 3, ""});
-  }
-  const auto first = of_authored(check, rear, [](const auto& m) { return m.pelvis_to_chest_s; });
-  const auto second = of_authored(check, rear, [](const auto& m) { return m.chest_to_limb_s; });
-  if (!first.empty()) {
-    check.gates.push_back(
-        {"pelvis to chest, rear hand, median", median(first) * 1000, 30, 70, "ms"});
-    check.gates.push_back(
-        {"chest to hand, rear hand, median", median(second) * 1000, 30, 70, "ms"});
-  }
-  double still = 0, all = 0;
-  for (const ActionMeasures& m : check.actions) {
-    const bool stands = m.kind != Kind::response && m.kind != Kind::get_up;
-    if (!m.authored || !stands) continue;
-    still += m.still_hands * m.seconds;
-    all += m.seconds;
-  }
-  if (all > 0) {
-    check.gates.push_back({"wrists slower than 0.15 m/s", 100 * still / all, 0, 5, "% of time"});
-  }
-}
-
-void add_yardstick_gates(LibraryCheck& check) {
-  if (!check.yardstick) return;
-  const Yardstick& y = *check.yardstick;
-  check.gates.push_back({"authored to real, median", 100 * y.authored_median, 0, 14, "cm"});
-  check.gates.push_back({"authored to real, 90 %", 100 * y.authored_90, 0, 20, "cm"});
-  check.gates.push_back({"real strikes to authored, median", 100 * y.strikes_median, 0, 18, "cm"});
-  check.gates.push_back({"real strikes to authored, 90 %", 100 * y.strikes_90, 0, 22, "cm"});
-}
-
 }  // namespace
 
 LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick> yardstick,
@@ -366,10 +246,7 @@ LibraryCheck check_library(const MotionLibrary& library, std::optional<Yardstick
   add_action_faults(library, check);
   add_seam_faults(library, check);
   add_kind_faults(library, check);
-  add_speed_gates(check);
-  add_motion_gates(check);
-  add_seam_gates(check);
-  add_yardstick_gates(check);
+  add_gates(check);
   for (const Gate& gate : check.gates) {
     if (gate.passed()) continue;
     check.faults.push_back(fmt::format("gate: {} is {:.3g} {}, asked {:g} to {:g}", gate.name,

@@ -25,8 +25,10 @@ struct ActionMeasures {
   double turn_rad = 0;
   double foot_skate = 0;             // validation table V4
   std::size_t limit_violations = 0;  // frames with a joint beyond its range by more than 3 degrees
-  std::string worst_joint;           // the one that is farthest beyond
+  double worst_limit_deg = 0;        // degrees beyond its range of the joint that is farthest so
+  std::string worst_joint;           // that joint
   double self_penetration_m = 0;     // 99 % of its frames have less, between parts that are apart
+  std::vector<float> self_depths_m;  // the same of every frame, smallest first
   std::string worst_pair;            // the parts that are deepest in each other
   double still_hands = 0;    // share of the time of both wrists slower than 0.15 m/s in the world
   double head_moves_m = 0;   // farthest from where it began, in the root's frame
