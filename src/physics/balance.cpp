@@ -51,13 +51,10 @@ Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate) {
   return {xi.x, 0, xi.z};
 }
 
-Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate, Vec3 angular_momentum,
-                  float mass) {
-  // Dumping H moves the centre of mass by (H x up) / (m h w0), h = g / w0^2; what is shed later
-  // counts less, by e^(-w0 t): with 0.1 s the rule agrees best with bodies simulated to their end.
-  const float later = std::exp(-rate * .1f);
-  const Vec3 shed = glm::cross(angular_momentum, kUp) * (later * rate / (mass * kGravity));
-  return extrapolated(center_of_mass, velocity, rate) + Vec3{shed.x, 0, shed.z};
+Vec3 shed_by_turning(Vec3 angular_momentum, float mass, float rate) {
+  // Dumping H moves the centre of mass by (H x up) / (m h w0), h = g / w0^2.
+  const Vec3 shed = glm::cross(angular_momentum, kUp) * (rate / (mass * kGravity));
+  return {shed.x, 0, shed.z};
 }
 
 Base::Base(std::span<const Vec3> points) {
@@ -100,17 +97,23 @@ Base::Beyond Base::beyond(Vec3 point) const {
   return result;
 }
 
+std::array<bool, 6> raised_corners(const std::array<Vec3, 6>& sole) {
+  // Ball and tip always carry (the toes bend); a raised heel does not.
+  float lowest = sole[0].y;
+  for (const Vec3& c : sole) lowest = std::min(lowest, c.y);
+  std::array<bool, 6> raised{};
+  for (std::size_t i = 0; i < sole.size(); i += 3) raised[i] = sole[i].y >= lowest + .025f;
+  return raised;
+}
+
 Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contacts) {
   std::vector<Vec3> points;
   for (const Side side : {Side::left, Side::right}) {
     if (!contacts.of(side)) continue;
     const auto corners = sole(body, world, side);
-    // Ball and tip always carry (the toes bend); a raised heel does not.
-    float lowest = corners[0].y;
-    for (const Vec3& c : corners) lowest = std::min(lowest, c.y);
+    const auto raised = raised_corners(corners);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const bool heel = i % 3 == 0;
-      if (!heel || corners[i].y < lowest + .025f) points.push_back(corners[i]);
+      if (!raised[i]) points.push_back(corners[i]);
     }
   }
   return Base(points);

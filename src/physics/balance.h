@@ -1,6 +1,7 @@
 #pragma once
 // Balance: the extrapolated centre of mass against the base of support (Hof 2005; validation V2).
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,17 +16,17 @@ float pendulum_rate(const BodyModel& body);
 // Extrapolated centre of mass on the ground, m: x + v / w0.
 Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate);
 
-// The same for a body that also turns (`angular_momentum` about its centre of mass, kg m2/s, `mass`
-// in kg): what is shed to the ground pushes the centre of mass as the centroidal moment pivot says
+// By how much the angular momentum about the centre of mass (kg m2/s, `mass` in kg) moves it, m:
+// what is shed to the ground pushes the centre of mass as the centroidal moment pivot says
 // (Popovic, Goswami, Herr 2005), so a body thrown over by its head is farther out than its velocity
 // tells, and one whose legs are swept forward less far.
-Vec3 extrapolated(Vec3 center_of_mass, Vec3 velocity, float rate, Vec3 angular_momentum,
-                  float mass);
+Vec3 shed_by_turning(Vec3 angular_momentum, float mass, float rate);
 
 // Convex hull of points on the ground (y is ignored), counter-clockwise seen from above (+X to +Z
 // is clockwise there: what counts is that `beyond` agrees). Fewer than three corners are allowed.
 class Base {
  public:
+  Base() = default;
   explicit Base(std::span<const Vec3> points);
   bool empty() const { return corners_.empty(); }
   Vec3 middle() const;
@@ -39,6 +40,9 @@ class Base {
  private:
   std::vector<Vec2> corners_;
 };
+
+// Which corners of a sole (physics/ragdoll.h) do not carry: those of a raised heel.
+std::array<bool, 6> raised_corners(const std::array<Vec3, 6>& sole);
 
 // The base under the planted feet of a pose.
 Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contacts);

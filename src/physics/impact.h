@@ -74,11 +74,19 @@ struct ImpactOutcome {
   bool operator==(const ImpactOutcome&) const = default;
 };
 
-// How far out of its base the body's own motion carries it, m, is the same for every blow on one
-// posed body; finding it takes a second run of the ragdoll, without the blow. Who tries many blows
-// keeps it: asked for one of the two sides (`mirrored`: the canonical frame has the blow go left),
-// it answers what `run` gave the first time, or calls it.
-using KeptOwnMotion = std::function<Vec3(bool mirrored, const std::function<Vec3()>& run)>;
+// What the body does by itself in the 100 ms, m: how far its own motion carries it out of its base,
+// and how far its feet (left, right; canonical frame) come off the way that the action has them go.
+struct OwnMotion {
+  Vec3 carried{};
+  std::array<Vec3, 2> strayed{};
+};
+
+// The own motion is the same for every blow on one posed body; finding it takes a second run of the
+// ragdoll, without the blow. Who tries many blows keeps it: asked for one of the two sides
+// (`mirrored`: the canonical frame has the blow go left), it answers what `run` gave the first
+// time, or calls it.
+using KeptOwnMotion =
+    std::function<OwnMotion(bool mirrored, const std::function<OwnMotion()>& run)>;
 
 // A fresh Bullet world in a canonical frame (root at the origin, heading removed), 24 steps of
 // 1/240 s, then the decision by capturability and head rotation. Same input, same bits.

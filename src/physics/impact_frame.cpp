@@ -8,10 +8,9 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kMostPartSpeed = 15;              // m/s that a blow may give to the part it meets
-constexpr float kPartTone = .25f;                 // of the struck part, for the mass that it offers
-constexpr float kStanding = .03f;                 // m: a sole this near to the ground stands on it
-constexpr float kCarries = .01f, kLifted = .06f;  // m: a sole carries all its share, nothing
+constexpr float kMostPartSpeed = 15;    // m/s that a blow may give to the part it meets
+constexpr float kPartTone = .25f;       // of the struck part, for the mass that it offers
+constexpr float kStanding = .03f;       // m: a sole this near to the ground stands on it
 constexpr float kMostGrounding = .12f;  // m: farther from the ground it is in the air after all
 constexpr float kMostShift = .12f;      // m: of the pelvis, against the drift
 constexpr float kBalanceGain = 1.0f;
@@ -171,22 +170,49 @@ void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, f
   }
 }
 
-Base standing_base(const BodyModel& body, const Ragdoll& ragdoll, FootContacts contacts) {
-  const WorldPose world = world_pose(body.skeleton, ragdoll.pose());
-  // A foot that is swept up carries less the higher it is: its corners draw back to the other foot.
-  const auto lifted = [&](Side side) {
-    const float low = sole_height(body, world, side);
-    return contacts.of(side) ? std::clamp((low - kCarries) / (kLifted - kCarries), 0.0f, 1.0f)
-                             : 1.0f;
-  };
-  const float left = lifted(Side::left), right = lifted(Side::right);
-  const auto l = sole(body, world, Side::left), r = sole(body, world, Side::right);
-  std::vector<Vec3> corners;
-  for (std::size_t i = 0; i < l.size(); ++i) {
-    corners.push_back(glm::mix(l[i], r[i], left * (1 - .5f * right)));
-    corners.push_back(glm::mix(r[i], l[i], right * (1 - .5f * left)));
+std::array<Vec3, 2> strayed_feet(const BodyModel& body, const ImpactFrame& frame,
+                                 const Ragdoll& ragdoll) {
+  const WorldPose meant = world_pose(body.skeleton, frame.continued(kImpulseStepTicks)),
+                  is = world_pose(body.skeleton, ragdoll.pose());
+  std::array<Vec3, 2> strayed{};
+  for (const Side side : {Side::left, Side::right}) {
+    const auto now = sole(body, is, side), would = sole(body, meant, side);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      strayed[static_cast<std::size_t>(side)] +=
+          (now[k] - would[k]) / static_cast<float>(now.size());
+    }
   }
-  return Base(corners);
+  return strayed;
+}
+
+Footing footing_of(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll,
+                   const FootingQuery& query) {
+  const WorldPose stood = world_pose(body.skeleton, frame.pose()),
+                  meant = world_pose(body.skeleton, frame.continued(kImpulseStepTicks)),
+                  is = world_pose(body.skeleton, ragdoll.pose());
+  Footing footing;
+  std::vector<Vec3> corners;
+  for (const Side side : {Side::left, Side::right}) {
+    if (!query.planted.of(side)) continue;
+    const auto was = sole(body, stood, side), now = sole(body, is, side),
+               would = sole(body, meant, side);
+    const auto raised = raised_corners(was);
+    const Vec3 own = query.strayed[static_cast<std::size_t>(side)];
+    Vec3 gone{};
+    float low = 1e9f, meant_low = 1e9f;
+    for (std::size_t k = 0; k < was.size(); ++k) {
+      const Vec3 by_blow = now[k] - would[k] - own;
+      if (!raised[k]) corners.push_back(was[k] + query.so_far * by_blow);
+      gone += by_blow / static_cast<float>(was.size());
+      low = std::min(low, now[k].y);
+      meant_low = std::min(meant_low, would[k].y);
+    }
+    const float lifted = low - std::max(0.0f, meant_low + own.y);
+    footing.lifted = std::max(footing.lifted, lifted);
+    footing.moved = std::max(footing.moved, glm::length(Vec3{gone.x, 0, gone.z}));
+  }
+  footing.base = Base(corners);
+  return footing;
 }
 
 Balance::Balance(const BodyModel& body, const ImpactFrame&)

@@ -45,8 +45,24 @@ class ImpactFrame {
 // at the joint to its parent, and so on.
 void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share);
 
-// The base under the planted feet where they are now: a struck foot has moved.
-Base standing_base(const BodyModel& body, const Ragdoll& ragdoll, FootContacts contacts);
+// How far the feet (left, right) are off the way that the action has them go, 100 ms on, m.
+std::array<Vec3, 2> strayed_feet(const BodyModel& body, const ImpactFrame& frame,
+                                 const Ragdoll& ragdoll);
+
+// Where the planted feet stood, moved by what the blow has done to them 100 ms on: what the action
+// itself does with them in that time is taken off. A lifted foot comes down again.
+struct Footing {
+  Base base;         // moved by `so_far` of the way
+  float lifted = 0;  // m: how high the higher one is
+  float moved = 0;   // m: how far the farther one has gone along the ground
+};
+struct FootingQuery {
+  FootContacts planted;
+  float so_far = 1;
+  std::array<Vec3, 2> strayed{};  // without the blow
+};
+Footing footing_of(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll,
+                   const FootingQuery& query);
 
 // Balance without outside force: the target poses' pelvis is shifted against the drift of the
 // extrapolated centre of mass, the legs reach for the same foot places (ragdoll.md section 2).

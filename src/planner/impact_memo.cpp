@@ -237,7 +237,7 @@ ImpactAnswer ImpactMemo::turned(ImpactAnswer answer, float yaw) {
 }
 
 KeptOwnMotion ImpactMemo::own_motion(const ImpulseSteps& steps) {
-  return [this, steps](bool mirrored, const std::function<Vec3()>& run) {
+  return [this, steps](bool mirrored, const std::function<OwnMotion()>& run) {
     Packer p;
     p.add(steps.moment.action.value, 13).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
     const Key key{p.a(), 0, worlds_[static_cast<std::size_t>(steps.victim)]};

@@ -119,7 +119,7 @@ class ImpactMemo {
   std::shared_ptr<ImpactStore> store_;
   Shards<Vec3> impulses_;
   Shards<ImpactAnswer> answers_;
-  Shards<Vec3> own_motions_;  // by pose class and side
+  Shards<OwnMotion> own_motions_;  // by pose class and side
 };
 
 }  // namespace ringcraft
