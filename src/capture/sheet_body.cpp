@@ -15,6 +15,7 @@ constexpr float kKneeRadius = 0.055f;             // m: height of a knee on the 
 constexpr float kMostDorsiflexion = radians(31);  // of a foot with its heel down
 constexpr float kSoftReach = 0.88f;      // of a limb's length: beyond it the reach is eased
 constexpr float kClosestReach = 0.32f;   // elbow 37, knee 37 degrees: flesh meets flesh
+constexpr float kSoftFold = 0.06f;       // over which a limb that folds so far gives way
 constexpr float kLongestReach = 0.995f;  // and never comes to this share (elbow 169 degrees)
 constexpr float kHandLength = 0.17f;     // m, wrist to finger tips
 constexpr float kHandThickness = 0.02f;  // m, half of it
@@ -112,11 +113,16 @@ Vec3 kneeling(const Skeleton& skeleton, const Limb& limb, const Pose& pose, Vec3
   return rests + along;
 }
 
-// Eases a target beyond most of a limb's length, so that elbow and knee never snap straight.
+// Eases a target beyond most of a limb's length or nearer than a folded one's, so that elbow and
+// knee never snap straight and a limb that unfolds does not start with a jerk.
 Vec3 within_reach(Vec3 root, Vec3 target, float length) {
-  const float near = kClosestReach * length;
+  const float near = kClosestReach * length, fold = kSoftFold * length;
   const float far = glm::distance(root, target);
-  if (far < near) return root + (target - root) * (near / std::max(far, 1e-4f));
+  if (far < near + fold) {
+    const float over = std::max(0.0f, far - near + fold);
+    const float folded = near + over * over / (4 * fold);
+    return root + (target - root) * (folded / std::max(far, 1e-4f));
+  }
   const float soft = kSoftReach * length, room = (kLongestReach - kSoftReach) * length;
   if (far <= soft) return target;
   return root + (target - root) * ((soft + room * (1 - std::exp(-(far - soft) / room))) / far);
@@ -129,7 +135,8 @@ void set_arm(const Skeleton& skeleton, Side side, const ArmTarget& target, Pose&
   const Vec3 wrist = within_reach(shoulder, target.wrist, skeleton.arm_length());
   solve_limb(skeleton, limb, {wrist, target.pole, 1.0f}, pose);
   // Either thumb turns inward about the body's left, which the rest pose's forearms lie along.
-  pose.rotation[index(limb.end)] = glm::angleAxis(target.palm, kLeft);
+  pose.rotation[index(limb.end)] =
+      glm::angleAxis(target.lag, hinge_axis(limb)) * glm::angleAxis(target.palm, kLeft);
   lay_on_floor(skeleton, side, pose);
 }
 

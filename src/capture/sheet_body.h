@@ -10,6 +10,7 @@ struct ArmTarget {
   Vec3 wrist{};    // m
   Vec3 pole{};     // direction of the elbow off the line shoulder-wrist
   float palm = 0;  // rad: fist about the forearm, palm down is positive
+  float lag = 0;   // rad: fist behind the forearm about the elbow's axis, as it bends
 };
 
 struct FootTarget {

@@ -84,6 +84,7 @@ struct SheetStrike {
   float start = 0, contact = 0;  // s: the limb leaves, full extension
   float active_begin = 0, active_end = 0;
   std::string profile;
+  float snap = 0;  // degrees by which a wrist lags behind its forearm until the contact
 };
 
 constexpr bool is_foot(Joint joint) {

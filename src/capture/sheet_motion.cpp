@@ -218,6 +218,10 @@ HandMotion::HandMotion(const Skeleton& skeleton, const SheetAction& action,
     : skeleton_(skeleton), side_(side) {
   const Channel wrist = of_side(Channel::lead_wrist, side);
   const auto windows = windows_of(action, arm(side).end);
+  for (const SheetStrike& strike : action.strikes) {
+    if (strike.strike.joint != arm(side).end || strike.snap <= 0) continue;
+    snaps_.push_back({strike.start, strike.contact, radians(strike.snap)});
+  }
   std::vector<float> times;
   std::vector<Vec3> points;
   for (const SheetKey& key : keys) {
@@ -257,6 +261,13 @@ HandMotion::HandMotion(const Skeleton& skeleton, const SheetAction& action,
   }
 }
 
+// Cocked as the hand leaves; straightens fastest when the wrist is fastest, at 0.7 of its way.
+float HandMotion::Snap::at(float t) const {
+  constexpr float kCocked = 0.2f, kLetsGo = 0.42f;  // shares of the hand's time
+  const float u = (t - start) / (contact - start);
+  return lag * eased(-0.4f, kCocked, u) * (1 - eased(kLetsGo, 1.0f, u));
+}
+
 Vec3 HandMotion::sway(float t) const {
   Vec3 sum{};
   for (const Wave& wave : waves_) sum += wave.amount * std::sin(2 * kPi * wave.hz * t + wave.phase);
@@ -274,6 +285,7 @@ ArmTarget HandMotion::at(float t, const BodyTargets& trunk) const {
   const Vec3 pole = pole_.empty() ? hanging : pole_.at(t);
   target.pole = chest.rotation * normalized_or(pole, hanging);
   target.palm = palm_.empty() ? 0 : radians(palm_.at(t).x);
+  for (const Snap& snap : snaps_) target.lag += snap.at(t);
   return target;
 }
 

@@ -55,10 +55,17 @@ class HandMotion {
     Vec3 amount{};
     float hz = 0, phase = 0;
   };
+  // A wrist that lags behind its forearm in one strike and snaps straight.
+  struct Snap {
+    float start = 0, contact = 0;  // s
+    float lag = 0;                 // rad
+    float at(float t) const;
+  };
   Vec3 sway(float t) const;
 
   const Skeleton& skeleton_;
   Side side_;
+  std::vector<Snap> snaps_;
   std::optional<StrikePath> path_;  // root's frame, of a hand that strikes
   Track in_chest_;                  // chest's frame, of one that does not
   Track pole_;                      // chest's frame

@@ -295,6 +295,7 @@ class Reader {
                                              : !straight ? "body"
                                              : lead      ? "jab"
                                                          : "cross");
+      read.snap = strike.value("snap", 0.0f);
       result.strikes.push_back(read);
     }
     return {};

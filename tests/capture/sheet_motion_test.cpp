@@ -210,9 +210,9 @@ TEST(SheetMotion, VariantsMeetTheirAimFartherAndNearer) {
 }
 
 TEST(SheetMotion, CrossAndJabHaveTheMeasuredSpeeds) {
-  // Wrist against pelvis: captured crosses 6.3-7.8 m/s, jabs 3.5-4.7. A jab whose fist lands at the
-  // published 7 m/s (V1) is faster than a shadow boxer's. The peak comes late in the hand's
-  // startup.
+  // Wrist against pelvis: captured crosses 6.3-7.8 m/s, jabs 3.5-4.7; the peak comes late in the
+  // hand's startup. What a jab's fist has more at the impact (7 m/s, V1) the hips' way and the
+  // wrist's snap give.
   const StrikeFigures cross = figures("cross");
   EXPECT_GT(cross.peak, 6.3f);
   EXPECT_LT(cross.peak, 7.8f);
@@ -222,9 +222,30 @@ TEST(SheetMotion, CrossAndJabHaveTheMeasuredSpeeds) {
   EXPECT_LT(cross.brake / cross.push, 3.0f);
   const StrikeFigures jab = figures("jab");
   EXPECT_GT(jab.peak, 3.5f);
-  EXPECT_LT(jab.peak, 6.8f);
+  EXPECT_LT(jab.peak, 4.9f);
   EXPECT_GT(jab.peak_before, 0.04f);
   EXPECT_LT(jab.peak_before, 0.09f);
+}
+
+TEST(SheetMotion, AJabsWristLagsAndIsStraightAtTheContact) {
+  // `snap` in a sheet: the fist turns in the elbow's plane, so its own axis leaves the forearm's.
+  for (const char* name : {"jab", "jab_step", "jab_to_body", "jab_cross", "jab_jab"}) {
+    const Action& action = library().at(name);
+    const auto bent = [&](Tick t) {
+      const Vec3 along = normalized_or(body().offset[index(Joint::left_hand)], kLeft);
+      const Quat hand = action.clip.at(t).rotation[index(Joint::left_hand)];
+      return degrees(std::acos(std::clamp(glm::dot(along, hand * along), -1.0f, 1.0f)));
+    };
+    float most = 0, least = 90;
+    const Strike& strike = action.strikes.front();
+    for (Tick t = 0; t <= strike.active_end; ++t) most = std::max(most, bent(t));
+    for (Tick t = strike.active_begin; t <= strike.active_end; ++t)
+      least = std::min(least, bent(t));
+    EXPECT_GT(most, 15) << name;
+    EXPECT_LT(most, 26) << name;
+    EXPECT_LT(least, 1) << name;
+    EXPECT_LT(bent(0), 1) << name;
+  }
 }
 
 TEST(SheetMotion, PelvisChestAndHandFollowEachOther) {
@@ -343,23 +364,13 @@ TEST(SheetMotion, ASpinGoesOnTurningToTheStance) {
 
 TEST(SheetMotion, NoJointPops) {
   // Captured boxing at 60 Hz: velocity jumps of 2.0-2.7 m/s at the 99.9 % quantile, 5.4 in a kata.
-  // A kick's foot at the published 11-14 m/s is twice as fast as the captured ones.
-  const auto kicking = [](const Action& action, std::size_t joint) {
-    return joint >= index(Joint::left_lower_leg) &&
-           std::any_of(action.strikes.begin(), action.strikes.end(), [&](const Strike& strike) {
-             const bool left = joint < index(Joint::right_upper_leg);
-             return strike.joint == (left ? Joint::left_foot : Joint::right_foot) ||
-                    strike.joint == (left ? Joint::left_lower_leg : Joint::right_lower_leg);
-           });
-  };
   for (const auto& [name, action] : library()) {
     const std::vector<WorldPose> world = worlds(action);
     for (std::size_t i = 2; i < world.size(); ++i) {
       for (std::size_t j = 0; j < kJointCount; ++j) {
-        const bool kicks = kicking(action, j);
         const Vec3 before = world[i - 1].position[j] - world[i - 2].position[j];
         const Vec3 after = world[i].position[j] - world[i - 1].position[j];
-        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, kicks ? 3.5f : 2.7f)
+        EXPECT_LT(glm::distance(before, after) * kTicksPerSecond, 2.7f)
             << name << " " << vrm_name(joint_at(j)) << " at tick " << i;
       }
     }
