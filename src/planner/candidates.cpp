@@ -221,7 +221,8 @@ void Duel::score_candidates(const Node& node, int who) {
   const Duelist& self = node.side[static_cast<std::size_t>(who)];
   const SideSetup& own = side(who);
   Aspect aspect = aspect_of(node, who);
-  scored_.clear();
+  scored_.resize(self.flight.table->next.size());
+  std::size_t count = 0;
   float least_turned = -2;
   Scored spare{};
   for (const NextAction& next : self.flight.table->next) {
@@ -242,10 +243,11 @@ void Duel::score_candidates(const Node& node, int who) {
       if (turned_ != nullptr) turned_->push_back(next.to);
       if (end.cosine > least_turned) least_turned = end.cosine, spare = one;
     } else {
-      scored_.push_back(one);
+      scored_[count++] = one;
     }
   }
-  if (scored_.empty() && spare.next != nullptr) scored_.push_back(spare);
+  if (count == 0 && spare.next != nullptr) scored_[count++] = spare;
+  scored_.resize(count);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
   pick_candidates(most, !aspect.threats.empty());
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);

@@ -14,10 +14,6 @@ constexpr double kBoredDistance = 0.9;    // m: boredom brings d* down to here
 
 }  // namespace
 
-std::int32_t thousandths(double points) {
-  return static_cast<std::int32_t>(std::lround(std::clamp(points, -1e5, 1e5) * 1000));
-}
-
 Weights weights_at(const Style& style, double quiet) {
   Weights w;
   const double bored = style.boredom_rate * std::max(0.0, quiet - style.boredom_after_s);

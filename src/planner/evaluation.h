@@ -2,6 +2,8 @@
 // The evaluation: S = w_l F_loc + w_f F_fight + w_c F_control (the paper's objective function), in
 // points, summed along a route in integer thousandths. docs/planning.md sets code beside equation.
 
+#include <algorithm>
+
 #include "motion/action.h"
 #include "physics/body.h"
 #include "planner/style.h"
@@ -9,7 +11,10 @@
 namespace ringcraft {
 
 // Thousandths of a point, rounded to nearest.
-std::int32_t thousandths(double points);
+inline std::int32_t thousandths(double points) {
+  const double scaled = std::clamp(points, -1e5, 1e5) * 1000;
+  return static_cast<std::int32_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
+}
 
 // A style at one moment of the fight: boredom has been worked in. Constant inside a search.
 struct Weights {

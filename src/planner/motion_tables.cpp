@@ -287,24 +287,47 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   };
   const Sphere& bound_a = a.table->bound_at(age_a);
   if (!near(seen.to_outer(bound_a.center), bound_a.radius, bound_b)) return 0;
-  const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
   const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
-  const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
-  const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
-  const Box& box_b = b.table->box_at(age_b);
-  float deepest = 0;
+  // The parts of each that touch the box around the other's.
+  struct Candidate {
+    Vec3 center;
+    float radius;
+    std::size_t part;
+  };
+  std::array<Candidate, kPartCount> own, their;
+  std::size_t own_count = 0, their_count = 0;
+  const auto touches_box = [](Vec3 center, float radius, const Box& box) {
+    return glm::distance2(center, glm::clamp(center, box.low, box.high)) <= radius * radius;
+  };
+  const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
+  Box reached{Vec3(1e9f), Vec3(-1e9f)};
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const Vec3 center = seen.to_outer(spheres_a[i].center);
-    const Vec3 in_box = glm::clamp(center, box_b.low, box_b.high);
     const float radius = spheres_a[i].radius;
-    if (((excepted_a >> i) & 1u) != 0 || glm::distance2(center, in_box) > radius * radius) continue;
-    for (std::size_t j = 0; j < kPartCount; ++j) {
-      if (((excepted_b >> j) & 1u) != 0 || !near(center, spheres_a[i].radius, spheres_b[j]))
-        continue;
-      const Capsule &own = capsules_a[i], &their = capsules_b[j];
+    if (((excepted_a >> i) & 1u) != 0 || !touches_box(center, radius, b.table->box_at(age_b)))
+      continue;
+    own[own_count++] = {center, radius, i};
+    reached.low = glm::min(reached.low, center - radius);
+    reached.high = glm::max(reached.high, center + radius);
+  }
+  if (own_count == 0) return 0;
+  for (std::size_t j = 0; j < kPartCount; ++j) {
+    const Sphere& sphere = spheres_b[j];
+    if (((excepted_b >> j) & 1u) != 0 || !touches_box(sphere.center, sphere.radius, reached))
+      continue;
+    their[their_count++] = {sphere.center, sphere.radius, j};
+  }
+  const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
+  const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
+  float deepest = 0;
+  for (std::size_t i = 0; i < own_count; ++i) {
+    const Capsule& mine = capsules_a[own[i].part];
+    for (std::size_t j = 0; j < their_count; ++j) {
+      if (!near(own[i].center, own[i].radius, {their[j].center, their[j].radius})) continue;
+      const Capsule& other = capsules_b[their[j].part];
       const float distance =
-          segment_distance(seen.to_outer(own.a), seen.to_outer(own.b), their.a, their.b).distance;
-      deepest = std::max(deepest, own.radius + their.radius - distance);
+          segment_distance(seen.to_outer(mine.a), seen.to_outer(mine.b), other.a, other.b).distance;
+      deepest = std::max(deepest, mine.radius + other.radius - distance);
     }
   }
   return deepest > least ? deepest : 0;
