@@ -16,6 +16,7 @@ constexpr float kLetsGo = 0.35f;                                    // s after i
 constexpr float kLeastRest = 0.12f, kShareSigma = 0.022f;           // s
 constexpr float kTrunkLeads = 0.30f, kTrunkThere = 0.03f;           // s before the meeting
 constexpr float kStraightestArm = 0.985f, kStraightestLeg = 0.99f;  // shares of their lengths
+constexpr float kSoftArm = 0.93f;        // share beyond which an arm that is led straightens softly
 constexpr int kRounds = 8;               // after which a strike meets, or never will
 constexpr float kMet = 0.002f;           // m
 constexpr float kAimed = 0.03f;          // m
@@ -324,7 +325,7 @@ class Mover {
   // Share of its length to which a limb may straighten: as far as it does in the clip, or a little.
   float straightest(const Limb& limb, Tick t) const {
     const float was = reach_share(skeleton_, limb, world_pose(skeleton_, old().at(t)));
-    return std::clamp(was, kStraightestArm, 0.9999f);
+    return std::clamp(was, kSoftArm, 0.9999f);
   }
 
   // How far the shin leans over the foot, rad.
