@@ -1,5 +1,8 @@
 #include "scene/answer.h"
 
+#include <algorithm>
+
+#include "physics/partial.h"
 #include "physics/response.h"
 
 namespace ringcraft {
@@ -35,9 +38,16 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   const bool falls = outcome.response == ResponseKind::knockdown;
   const Tick ticks = falls ? answer.launch.end - now : kSimulatedTicks;
   std::vector<Pose> target;
-  for (Tick t = 0; t <= ticks + kAhead; ++t) {
+  const Tick clip = answer.launch.end - now;
+  for (Tick t = 0; t <= std::max(clip, ticks + kAhead); ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
+  if (outcome.response == ResponseKind::absorb) {
+    answer.share = share_of_clip(body, input, outcome, target);
+    const Pose rest = target.front();
+    for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.share);
+  }
+  target.resize(static_cast<std::size_t>(ticks + kAhead) + 1);
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));
   if (steps) carry(library, body.scale, answer.simulated.back(), now + ticks, answer.launch);

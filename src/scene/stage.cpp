@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "motion/ik.h"
+#include "physics/partial.h"
 #include "scene/keep_out.h"
 
 namespace ringcraft {
@@ -50,6 +51,7 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
                 {},
                 {},
                 {},
+                1,
                 {},
                 0,
                 false,
@@ -75,6 +77,10 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
   if (share > 0) {
     pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
   }
+  if (actor.share < 1) {
+    const Pose rest = pose_at(own, actor.launch, start, actor.body.scale);
+    pose = partial_pose(actor.body.skeleton, rest, pose, actor.share);
+  }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
                             tick);
 }
@@ -88,10 +94,11 @@ void Stage::begin(FighterId fighter, const Launch& launch) {
 }
 
 void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-                  const Pace& pace) {
+                  const Pace& pace, float share) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
   actor.pace = pace;
+  actor.share = share;
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {
     actor.variation = Variation(derived_seed(static_cast<std::uint64_t>(launch.start), "launch",

@@ -27,9 +27,10 @@ class Stage {
   // From the next tick on, the fighter's launch is shown, stitched to what is shown now.
   void begin(FighterId fighter, const Launch& launch);
 
-  // The same for a response: `simulated` poses are shown first, one a tick, then the launch's clip.
+  // The same for a response: `simulated` poses are shown first, one a tick, then the launch's clip,
+  // or `share` of it (physics/partial.h).
   void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-             const Pace& pace = {});
+             const Pace& pace = {}, float share = 1);
 
   // Moves a fighter's launch on the ground; the feet follow by steps of their own.
   void shift(FighterId fighter, Vec3 offset);
@@ -66,6 +67,7 @@ class Stage {
     Launch launch;
     Pace pace;                    // of this launch
     Variation variation;          // of this launch
+    float share = 1;              // of the clip that is shown
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;

@@ -1,0 +1,65 @@
+#include "physics/partial.h"
+
+#include <algorithm>
+#include <array>
+
+#include "motion/ik.h"
+
+namespace ringcraft {
+namespace {
+
+constexpr Tick kMeasured = 24;  // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
+constexpr float kFace = .15f;   // m before the head's joint: shows turns
+
+// Head, face and chest about the hips, m.
+std::array<Vec3, 3> upper(const Skeleton& skeleton, const Pose& pose) {
+  const WorldPose world = world_pose(skeleton, pose);
+  const Vec3 head = world.position[index(Joint::head)] - world.position[0];
+  return {head, head + world.rotation[index(Joint::head)] * (kFace * kForward),
+          world.position[index(Joint::upper_chest)] - world.position[0]};
+}
+
+float apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+  float most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+  return most;
+}
+
+}  // namespace
+
+float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
+                    std::span<const Pose> clip) {
+  if (clip.empty() || glm::length(input.blow.impulse) <= 0) return 0;
+  const auto rest = upper(body.skeleton, clip.front());
+  float goes = 0;
+  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(body.skeleton, pose), rest));
+  if (goes <= 0) return 0;
+
+  ImpactInput calm = input;
+  calm.blow.impulse *= 1e-6f;  // not nothing: it says on which side the blow lands
+  const auto still = clip.first(1);
+  const auto struck = simulate_response(body, input, outcome, still, kMeasured);
+  const auto unstruck = simulate_response(body, calm, outcome, still, kMeasured);
+  float moved = 0;
+  for (std::size_t t = 0; t < struck.size(); ++t) {
+    moved =
+        std::max(moved, apart(upper(body.skeleton, struck[t]), upper(body.skeleton, unstruck[t])));
+  }
+  return std::min(1.0f, moved / goes);
+}
+
+Pose partial_pose(const Skeleton& skeleton, const Pose& rest, const Pose& pose, float share) {
+  Pose part = mix(rest, pose, share);
+  const WorldPose from = world_pose(skeleton, rest), to = world_pose(skeleton, pose);
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t end = index(leg(side).end);
+    move_limb_end(skeleton, leg(side), glm::mix(from.position[end], to.position[end], share), 1.0f,
+                  part);
+    const Quat turn = glm::slerp(from.rotation[end],
+                                 in_hemisphere_of(to.rotation[end], from.rotation[end]), share);
+    set_world_rotation(skeleton, leg(side).end, glm::normalize(turn), part);
+  }
+  return part;
+}
+
+}  // namespace ringcraft

@@ -1,0 +1,21 @@
+#pragma once
+// Partial responses: an absorbed blow is answered by as much of its clip as the blow moves the
+// body.
+
+#include "physics/impact.h"
+
+namespace ringcraft {
+
+// The share 0..1 of an absorbing response's clip that answers the blow: how far the simulated body
+// is moved by it, against how far the clip moves a body. Zero impulse has none of it, 1 where the
+// body goes as far as the clip does. `clip`: the response's poses, world, one a tick from the
+// contact on. Both are the largest way of head, face and chest about the hips; the simulated one is
+// measured on the body that tracks the clip's first pose, with the blow and without it.
+float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
+                    std::span<const Pose> clip);
+
+// The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that
+// share of their own way, so that what stands in both stands.
+Pose partial_pose(const Skeleton& skeleton, const Pose& rest, const Pose& pose, float share);
+
+}  // namespace ringcraft

@@ -1,0 +1,65 @@
+#include "physics/partial.h"
+
+#include <gtest/gtest.h>
+
+#include "motion/ik.h"
+#include "physics/hit.h"
+
+namespace ringcraft {
+namespace {
+
+class Partial : public testing::Test {
+ protected:
+  BodyModel body = make_body({});
+  Pose fighting = stance::fighting(body);
+
+  // Of a clip that bends the neck by 60 degrees.
+  float share(Part part, Vec3 impulse) const {
+    std::vector<Pose> clip(60, fighting);
+    for (std::size_t i = 0; i < clip.size(); ++i) {
+      const float bent = radians(static_cast<float>(i));
+      clip[i].rotation[index(Joint::neck)] =
+          from_rotation_vector({-bent, 0, 0}) * fighting.rotation[index(Joint::neck)];
+    }
+    const stance::Hit hit(body, fighting, part, impulse);
+    return share_of_clip(body, hit.input, {}, clip);
+  }
+};
+
+TEST_F(Partial, NoImpulseHasNothingOfTheClipAndAHarderBlowNeverLess) {
+  for (const Part part : {Part::head, Part::chest, Part::abdomen}) {
+    for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}}) {
+      EXPECT_EQ(share(part, {}), 0);
+      float last = 0;
+      for (const float impulse : {2.0f, 5.0f, 10.0f, 20.0f}) {
+        const float now = share(part, impulse * way);
+        EXPECT_GE(now, last) << name_of(part) << " " << impulse;
+        last = now;
+      }
+      EXPECT_GT(last, 0);
+    }
+  }
+  EXPECT_GT(share(Part::head, {0, 0, -12}), 1.3f * share(Part::head, {0, 0, -6}));
+}
+
+TEST_F(Partial, APartialPoseStandsWhereRestAndClipStand) {
+  const WorldPose stood = world_pose(body.skeleton, fighting);
+  Pose crouched = fighting;
+  crouched.hips.y -= .08f;
+  crouched = partial_pose(body.skeleton, fighting, crouched, 0);
+  EXPECT_LT(largest_joint_distance(world_pose(body.skeleton, crouched), stood), 1e-3f);
+  crouched.hips.y -= .08f;
+  for (const Side side : {Side::left, Side::right}) {  // over the same feet
+    move_limb_end(body.skeleton, leg(side), stood.position[index(leg(side).end)], 1.0f, crouched);
+  }
+  const Pose half = partial_pose(body.skeleton, fighting, crouched, .5f);
+  const WorldPose world = world_pose(body.skeleton, half);
+  EXPECT_NEAR(half.hips.y, fighting.hips.y - .04f, 1e-4f);
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t end = index(leg(side).end);
+    EXPECT_LT(glm::distance(world.position[end], stood.position[end]), 2e-3f);
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
