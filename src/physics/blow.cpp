@@ -15,7 +15,6 @@ namespace {
 constexpr float kContactSeconds = 0.010f;  // of a blow, ragdoll.md section 4
 constexpr float kRestitution = 0.10f;      // glove on body: nearly all is lost
 constexpr float kFriction = 0.5f;          // leather on skin: the line stays within its cone
-constexpr float kStruckTone = 0.25f;       // the struck part's muscles over the contact time
 constexpr float kBlockShare = 0.5f;        // of a blow's impulse that a guard passes on to the body
 
 constexpr int kMostFreedoms = 6 + 12 * 3 + 4;
@@ -25,7 +24,6 @@ constexpr int kMostFreedoms = 6 + 12 * 3 + 4;
 class Articulated {
  public:
   using Matrix = Eigen::Matrix<double, kMostFreedoms, kMostFreedoms>;
-  using Row = Eigen::Matrix<double, 1, kMostFreedoms>;
 
   Articulated(const BodyModel& body, const Pose& pose) : body_(body) {
     const WorldPose world = world_pose(body.skeleton, pose);
@@ -71,16 +69,24 @@ class Articulated {
     return m;
   }
 
-  // Velocity of `point` on `part` along `line` per unit of each coordinate's velocity.
-  Row jacobian(Part part, Vec3 point, Vec3 line) const {
+  // What `point` on `part` moves and turns by, along and about x, y and z, per unit of each
+  // coordinate's velocity.
+  using Twist = Eigen::Matrix<double, 6, kMostFreedoms>;
+  Twist jacobian(Part part, Vec3 point) const {
     Columns columns;
     collect(index(part), point, columns);
-    Row row = Row::Zero();
+    Twist twist = Twist::Zero();
     for (int a = 0; a < columns.count; ++a) {
-      row(columns.at[a]) = static_cast<double>(glm::dot(columns.linear[a], line));
+      const auto i = static_cast<std::size_t>(a);
+      for (int k = 0; k < 3; ++k) {
+        twist(k, columns.at[i]) = static_cast<double>(columns.linear[i][k]);
+        twist(3 + k, columns.at[i]) = static_cast<double>(columns.angular[i][k]);
+      }
     }
-    return row;
+    return twist;
   }
+
+  Vec3 pivot(Part part) const { return pivot_[index(part)]; }
 
  private:
   struct Columns {  // of the coordinates that move one part
@@ -160,28 +166,32 @@ StrikeTraits traits_of(StrikeKind kind) {
   return {.25f, 1.3f, 4.0f};
 }
 
-Blow blow_with(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
-               const Pose& target_pose, const Contact& contact, const StrikeTraits& traits) {
+Blow blow_with(const Contact& contact, const StrikeTraits& traits, float striker, float struck) {
   Blow blow;
   blow.part = contact.struck;
   blow.point = contact.point;
   blow.blocked = contact.blocked;
   const Vec3 line = line_of_blow(contact);
   blow.speed = std::max(0.0f, glm::dot(contact.velocity, line));
-  // A fist strikes with the knuckles in line: its mass is that at the glove's axis, in the pose
-  // given (the contact may lie a few centimetres before it).
-  const Capsule glove =
-      capsules(attacker, world_pose(attacker.skeleton, attacker_pose))[index(contact.striker)];
-  const Vec3 knuckles = segment_distance(glove.a, glove.b, contact.point, contact.point).on_first;
-  blow.effective_mass = std::clamp(
-      effective_mass(attacker, attacker_pose, contact.striker, knuckles, line, traits.tone),
-      traits.least, traits.most);
-  const float struck =
-      effective_mass(target, target_pose, contact.struck, contact.point, line, kStruckTone);
+  blow.effective_mass = std::clamp(striker, traits.least, traits.most);
   const float both = 1 / (1 / blow.effective_mass + 1 / struck);
   const float share = contact.blocked ? kBlockShare : 1.0f;
   blow.impulse = line * (share * (1 + kRestitution) * blow.speed * both);
   return blow;
+}
+
+Blow blow_with(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
+               const Pose& target_pose, const Contact& contact, const StrikeTraits& traits) {
+  const Vec3 line = line_of_blow(contact);
+  // A fist strikes with the knuckles in line: its mass is that at the glove's axis, in the pose
+  // given (the contact may lie a few centimetres before it).
+  const Capsule glove =
+      capsules(attacker, world_pose(attacker.skeleton, attacker_pose))[index(contact.striker)];
+  return blow_with(
+      contact, traits,
+      effective_mass(attacker, attacker_pose, contact.striker, knuckles(glove, contact.point), line,
+                     traits.tone),
+      effective_mass(target, target_pose, contact.struck, contact.point, line, kStruckTone));
 }
 
 }  // namespace
@@ -195,13 +205,44 @@ Vec3 line_of_blow(const Contact& contact) {
   return glm::normalize(inward + kFriction * side);
 }
 
+PartMobility mobility_of(const BodyModel& body, const Pose& pose, Part part, float tone) {
+  const Articulated articulated(body, pose);
+  PartMobility mobility;
+  mobility.about = articulated.pivot(part);
+  const Articulated::Twist twist = articulated.jacobian(part, mobility.about);
+  const Eigen::LDLT<Articulated::Matrix> solver(articulated.mass(tone));
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(mobility.inverse.data()) =
+      twist * solver.solve(twist.transpose());
+  return mobility;
+}
+
+float PartMobility::mass_along(Vec3 point, Vec3 line) const {
+  const Vec3 moment = glm::cross(point - about, line);
+  const std::array<double, 6> wrench{static_cast<double>(line.x),   static_cast<double>(line.y),
+                                     static_cast<double>(line.z),   static_cast<double>(moment.x),
+                                     static_cast<double>(moment.y), static_cast<double>(moment.z)};
+  double inverse_mass = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) inverse_mass += wrench[i] * inverse[6 * i + k] * wrench[k];
+  }
+  return static_cast<float>(1.0 / std::max(inverse_mass, 1e-6));
+}
+
 float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
                      float tone) {
-  const Articulated articulated(body, pose);
-  const auto row = articulated.jacobian(part, point, normalized_or(line, kForward));
-  const Eigen::LDLT<Articulated::Matrix> solver(articulated.mass(tone));
-  const double inverse_mass = row.dot(solver.solve(row.transpose()));
-  return static_cast<float>(1.0 / std::max(inverse_mass, 1e-6));
+  return mobility_of(body, pose, part, tone).mass_along(point, normalized_or(line, kForward));
+}
+
+float striking_tone(StrikeKind kind) {
+  return traits_of(kind).tone;
+}
+
+Vec3 knuckles(const Capsule& striker, Vec3 point) {
+  return segment_distance(striker.a, striker.b, point, point).on_first;
+}
+
+Blow blow_of(const Contact& contact, StrikeKind kind, float striker, float struck) {
+  return blow_with(contact, traits_of(kind), striker, struck);
 }
 
 Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,

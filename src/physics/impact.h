@@ -9,8 +9,18 @@
 
 namespace ringcraft {
 
-// The striking limb's effective mass along the line of the blow, kg: 1 / (n J M^-1 J^T n) of the
-// articulated body, with the muscles' tone over the contact time (ragdoll.md section 4).
+// What a part of a posed body offers to blows, wherever and whichever way they go: the inverse of
+// the inertia that the articulated body has there (Khatib 1987, operational space), with the
+// muscles' tone over the contact time (ragdoll.md section 4).
+struct PartMobility {
+  Vec3 about{};                      // m, in the space of the pose
+  std::array<double, 36> inverse{};  // 6 x 6: forces along x, y, z, then moments; SI
+  // Effective mass of `point` along the unit vector `line`, kg.
+  float mass_along(Vec3 point, Vec3 line) const;
+};
+PartMobility mobility_of(const BodyModel& body, const Pose& pose, Part part, float tone);
+
+// The striking limb's effective mass along the line of the blow, kg.
 float effective_mass(const BodyModel& body, const Pose& pose, Part part, Vec3 point, Vec3 line,
                      float tone);
 
@@ -27,10 +37,20 @@ struct Blow {
 // cone of friction around the surface's inner normal.
 Vec3 line_of_blow(const Contact& contact);
 
+// The tone of the limb that strikes and of the part that is struck, over the contact time.
+float striking_tone(StrikeKind kind);
+inline constexpr float kStruckTone = 0.25f;
+
+// Where a striking part's mass counts: on its axis, nearest to the contact.
+Vec3 knuckles(const Capsule& striker, Vec3 point);
+
 // J = (1+e) v / (1/m_striker + 1/m_struck) along the line of the blow; a block passes on a part of
 // it.
 Blow blow_of(const BodyModel& attacker, const Pose& attacker_pose, const BodyModel& target,
              const Pose& target_pose, const Contact& contact, StrikeKind kind);
+
+// The same from both masses along the line of the blow, kg.
+Blow blow_of(const Contact& contact, StrikeKind kind, float striker, float struck);
 
 // The same where a falling body meets another, with the mass that its slack limbs bring along.
 Blow blow_of_fall(const BodyModel& faller, const Pose& faller_pose, const BodyModel& target,

@@ -88,7 +88,9 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
   blow.struck_age = struck.table->clamped(struck.age(met.tick));
   blow.kind = flight.table->strikes[window.strike].strike.kind;
   blow.contact = met.contact;
-  blow.attacker_yaw = flight.frame_at(met.tick).yaw - struck.frame_at(met.tick).yaw;
+  const Frame seen = relative(struck.frame_at(met.tick), flight.frame_at(met.tick));
+  blow.attacker_yaw = seen.yaw;
+  blow.striking = seen.to_inner(met.contact.point);
   return event;
 }
 

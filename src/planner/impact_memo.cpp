@@ -9,8 +9,6 @@
 namespace ringcraft {
 namespace {
 
-constexpr int kYaws = 12;
-
 int turn_step(float yaw, int steps) {
   const float turn = 2 * kPi / static_cast<float>(steps);
   const int step = static_cast<int>(std::lround(wrapped_angle(yaw) / turn));
@@ -62,25 +60,11 @@ std::uint64_t world_of(const MotionTables& tables, const MemoSteps& size) {
   const BodySpec& spec = tables.body().spec;
   Hasher hasher;
   hasher.add(tables.library().hash()).add(spec.height).add(spec.mass).add(spec.sex);
-  hasher.add(spec.toughness).add(size.ticks).add(size.azimuths).add(size.speed);
-  hasher.add(size.impulse);
+  hasher.add(spec.toughness).add(size.ticks).add(size.azimuths).add(size.impulse);
   return hasher.digest();
 }
 
 }  // namespace
-
-ImpactMemo::Key ImpactMemo::key_of(const BlowSteps& steps) const {
-  Packer p;
-  p.add(steps.attack.value, 13).add(steps.attack_age, 12).add(static_cast<int>(steps.striker), 5);
-  p.add(static_cast<int>(steps.kind), 3).add(steps.azimuth, 5).add(steps.elevation, 3);
-  p.add(steps.yaw, 5).add(steps.blocked ? 1 : 0, 1);
-  p.add(steps.struck_action.value, 13).add(steps.struck_age, 12);
-  p.add(static_cast<int>(steps.struck), 5).add(steps.speed, 8);
-  p.add(steps.place.along, 2).add(steps.place.beside, 3);
-  const std::uint64_t world = worlds_[static_cast<std::size_t>(steps.attacker)] +
-                              3 * worlds_[static_cast<std::size_t>(steps.victim)];
-  return {p.a(), p.b(), world};
-}
 
 ImpactMemo::Key ImpactMemo::key_of(const ImpulseSteps& steps) const {
   Packer p;
@@ -122,76 +106,63 @@ Vec3 ImpactMemo::point_of(const Capsule& struck, Vec3 line, BlowPlace place) {
          line * (std::sqrt(1 - beside * beside) * struck.radius);
 }
 
-ImpactMemo::BlowSteps ImpactMemo::steps_of(const LandedBlow& blow) const {
-  const Vec3 line = line_of_blow(blow.contact);
-  const float speed = std::max(0.0f, glm::dot(blow.contact.velocity, line));
-  BlowSteps steps{};
-  steps.attacker = blow.attacker;
-  steps.victim = blow.victim;
-  steps.attack = blow.attack;
-  steps.struck_action = blow.struck_action;
-  steps.attack_age = std::max(0, blow.attack_age) / size_.ticks;
-  steps.struck_age = std::max(0, blow.struck_age) / size_.ticks;
-  steps.kind = blow.kind;
-  steps.striker = blow.contact.striker;
-  steps.struck = blow.contact.struck;
-  steps.blocked = blow.contact.blocked;
-  steps.azimuth = turn_step(yaw_of(line), size_.azimuths);
-  steps.elevation = elevation_step(line);
-  steps.yaw = turn_step(blow.attacker_yaw, kYaws);
-  steps.speed = step_of(speed, size_.speed, 255);
+// Both bodies are rigid pictures of their tables: what they offer is asked in their action spaces.
+template <class Mobility>
+Blow ImpactMemo::exact(const LandedBlow& blow, const Mobility& mobility) const {
+  const Contact& contact = blow.contact;
+  const Vec3 line = line_of_blow(contact);
+  const Capsule glove = part_capsule(*bodies_[static_cast<std::size_t>(blow.attacker)], blow.attack,
+                                     blow.attack_age, contact.striker);
+  const PartMobility& striker = mobility(blow.attacker, PoseMoment{blow.attack, blow.attack_age},
+                                         contact.striker, striking_tone(blow.kind));
+  const PartMobility& struck = mobility(
+      blow.victim, PoseMoment{blow.struck_action, blow.struck_age}, contact.struck, kStruckTone);
+  return blow_of(
+      contact, blow.kind,
+      striker.mass_along(knuckles(glove, blow.striking), yaw_rotation(-blow.attacker_yaw) * line),
+      struck.mass_along(contact.point, line));
+}
+
+Blow ImpactMemo::exact(const LandedBlow& blow) const {
+  return exact(blow, [&](int body, PoseMoment moment, Part part, float tone) {
+    const MotionTables& tables = *bodies_[static_cast<std::size_t>(body)];
+    return mobility_of(tables.body(), tables.at(moment.action).pose_at(moment.age), part, tone);
+  });
+}
+
+Blow ImpactMemo::kept(const LandedBlow& blow) {
+  return exact(
+      blow, [&](int body, PoseMoment moment, Part part, float tone) -> const PartMobility& {
+        const auto b = static_cast<std::size_t>(body);
+        Packer p;
+        p.add(moment.action.value, 13).add(moment.age, 12).add(static_cast<int>(part), 5);
+        p.add(std::lround(tone * 1000), 10);
+        return looked_up(mobilities_, &ImpactStore::mobilities, {p.a(), p.b(), worlds_[b]}, [&] {
+          const Pose& pose = bodies_[b]->at(moment.action).pose_at(moment.age);
+          return mobility_of(bodies_[b]->body(), pose, part, tone);
+        });
+      });
+}
+
+float ImpactMemo::root_yaw(const LandedBlow& blow) const {
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(blow.victim)];
-  steps.place =
-      place_of(part_capsule(victim, blow.struck_action, std::max(0, blow.struck_age), steps.struck),
-               line, blow.contact.point);
-  return steps;
+  return victim.at(blow.struck_action).root_at(blow.struck_age).yaw;
 }
 
-// The impulse of the quantised blow: both bodies posed anew, the striker's part put before the
-// struck one.
-Vec3 ImpactMemo::impulse_of(const BlowSteps& steps) const {
-  const MotionTables& attacker = *bodies_[static_cast<std::size_t>(steps.attacker)];
-  const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
-  const Tick attack_age = steps.attack_age * size_.ticks,
-             struck_age = steps.struck_age * size_.ticks;
-  const Vec3 line = direction_of(steps.azimuth, size_.azimuths, steps.elevation);
-
-  const Capsule struck = part_capsule(victim, steps.struck_action, struck_age, steps.struck);
-  Contact contact;
-  contact.striker = steps.striker;
-  contact.struck = steps.struck;
-  contact.blocked = steps.blocked;
-  contact.normal = -line;
-  contact.point = point_of(struck, line, steps.place);
-  contact.velocity = line * (static_cast<float>(steps.speed) * size_.speed);
-
-  const Frame turned(Placement{0, 0, turn_of(steps.yaw, kYaws)});
-  const Capsule own = part_capsule(attacker, steps.attack, attack_age, steps.striker);
-  const Vec3 center = turned.to_outer((own.a + own.b) * 0.5f);
-  Pose pose = placed(attacker.at(steps.attack).pose_at(attack_age), turned.placement());
-  pose.hips += contact.point + contact.normal * own.radius - center;
-
-  return blow_of(attacker.body(), pose, victim.body(),
-                 victim.at(steps.struck_action).pose_at(struck_age), contact, steps.kind)
-      .impulse;
-}
-
-float ImpactMemo::root_yaw(const BlowSteps& blow) const {
-  const MotionTables& victim = *bodies_[static_cast<std::size_t>(blow.victim)];
-  return victim.at(blow.struck_action).root_at(blow.struck_age * size_.ticks).yaw;
-}
-
-ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const BlowSteps& blow, Vec3 impulse) const {
+ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const LandedBlow& blow, Vec3 impulse) const {
   ImpulseSteps steps{};
   steps.victim = blow.victim;
-  steps.moment = classes_[static_cast<std::size_t>(blow.victim)].of(blow.struck_action,
-                                                                    blow.struck_age * size_.ticks);
-  steps.struck = blow.struck;
-  steps.blocked = blow.blocked;
-  steps.place = blow.place;
+  const auto victim = static_cast<std::size_t>(blow.victim);
+  steps.moment = classes_[victim].of(blow.struck_action, blow.struck_age + size_.ticks / 2);
+  steps.struck = blow.contact.struck;
+  steps.blocked = blow.contact.blocked;
+  steps.place =
+      place_of(part_capsule(*bodies_[victim], blow.struck_action, blow.struck_age, steps.struck),
+               impulse, blow.contact.point);
   steps.azimuth = turn_step(yaw_of(impulse) - root_yaw(blow), size_.azimuths);
   steps.elevation = elevation_step(impulse);
-  steps.impulse = step_of(glm::length(impulse), size_.impulse, 1000);
+  const float size = glm::length(impulse);
+  if (size >= kTouchImpulse) steps.impulse = step_of(size, size_.impulse, 1000);
   return steps;
 }
 
@@ -220,11 +191,18 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotio
   input.blow.blocked = steps.blocked;
   input.contacts = action.action->clip.contacts_at(age);
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
-  if (answer.impulse >= kTouchImpulse) answer.outcome = impulse_step(victim.body(), input, own);
+  if (steps.impulse > 0) answer.outcome = impulse_step(victim.body(), input, own);
   answer.response =
       choose_response(victim.library(), answer.outcome, facing, action.action->stance);
-  answer.damage = damage_of(input.blow, answer.outcome);
   return turned(answer, -facing);
+}
+
+ImpactAnswer ImpactMemo::carried(const ImpactAnswer& found, const LandedBlow& landed,
+                                 const Blow& blow) const {
+  ImpactAnswer answer = turned(found, root_yaw(landed));
+  answer.impulse = glm::length(blow.impulse);
+  answer.damage = damage_of(blow, answer.outcome);
+  return answer;
 }
 
 ImpactAnswer ImpactMemo::turned(ImpactAnswer answer, float yaw) {
@@ -272,19 +250,17 @@ const Value& ImpactMemo::looked_up(Shards<Value>& shards, ImpactShelf<Value> Imp
   return shard.entries.try_emplace(key, value).first->second;
 }
 
-ImpactAnswer ImpactMemo::answer(const LandedBlow& blow) {
-  const BlowSteps blow_steps = steps_of(blow);
-  const Vec3 impulse = looked_up(impulses_, &ImpactStore::impulses, key_of(blow_steps),
-                                 [&] { return impulse_of(blow_steps); });
-  const ImpulseSteps steps = steps_of(blow_steps, impulse);
+ImpactAnswer ImpactMemo::answer(const LandedBlow& landed) {
+  const Blow blow = kept(landed);
+  const ImpulseSteps steps = steps_of(landed, blow.impulse);
   const ImpactAnswer& found = looked_up(answers_, &ImpactStore::answers, key_of(steps),
                                         [&] { return answer_of(steps, own_motion(steps)); });
-  return turned(found, root_yaw(blow_steps));
+  return carried(found, landed, blow);
 }
 
-ImpactAnswer ImpactMemo::recomputed(const LandedBlow& blow) const {
-  const BlowSteps steps = steps_of(blow);
-  return turned(answer_of(steps_of(steps, impulse_of(steps)), {}), root_yaw(steps));
+ImpactAnswer ImpactMemo::recomputed(const LandedBlow& landed) const {
+  const Blow blow = exact(landed);
+  return carried(answer_of(steps_of(landed, blow.impulse), {}), landed, blow);
 }
 
 std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t strike,
@@ -323,12 +299,15 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
   landed.contact.point = point_of(
       part_capsule(*bodies_[static_cast<std::size_t>(victim)], standing, 0, landed.contact.struck),
       -kForward, {0, 0});
-  const BlowSteps steps = steps_of(landed);
-  const ImpulseSteps impulse = steps_of(steps, impulse_of(steps));
-  return kept(&ImpactStore::answers, key_of(impulse),
-              [&] {  // beside the memo, which counts
-                return answer_of(impulse, own_motion(impulse));
-              })
+  const Capsule& striker = action.capsules_at(fastest)[index(blow.main)];
+  landed.striking = (striker.a + striker.b) * 0.5f;
+  const Blow clean = kept(landed);
+  const ImpulseSteps steps = steps_of(landed, clean.impulse);
+  return carried(kept(&ImpactStore::answers, key_of(steps),
+                      [&] {  // beside the memo, which counts
+                        return answer_of(steps, own_motion(steps));
+                      }),
+                 landed, clean)
       .damage;
 }
 

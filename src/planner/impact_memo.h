@@ -1,6 +1,7 @@
 #pragma once
 // The impact memo: impulse steps by quantised input, of one fight. The outcome is computed from the
-// quantised values, so a memo never changes a result.
+// quantised values, so a memo never changes a result. The impulse itself is exact: what the parts
+// offer to it is kept by action and tick.
 
 #include <array>
 #include <cstdint>
@@ -19,9 +20,8 @@ namespace ringcraft {
 
 // Steps of the quantisation.
 struct MemoSteps {
-  Tick ticks = 6;        // of the victim's and the attacker's action
-  int azimuths = 8;      // directions of the blow around the victim, 45 degrees each
-  float speed = 0.75f;   // m/s
+  Tick ticks = 6;        // of the victim's action
+  int azimuths = 8;      // directions of the impulse around the victim, 45 degrees each
   float impulse = 3.0f;  // N s
 };
 
@@ -33,6 +33,7 @@ struct LandedBlow {
   StrikeKind kind = StrikeKind::straight;
   Contact contact;         // in the victim's action space
   float attacker_yaw = 0;  // of the attacker's action space, seen from the victim's, rad
+  Vec3 striking{};         // contact.point in the attacker's action space
 };
 
 class ImpactMemo {
@@ -74,17 +75,7 @@ class ImpactMemo {
   static BlowPlace place_of(const Capsule& struck, Vec3 line, Vec3 point);
   static Vec3 point_of(const Capsule& struck, Vec3 line, BlowPlace place);
 
-  // The quantised blow and the quantised impulse, as numbers of steps.
-  struct BlowSteps {
-    int attacker, victim;  // in the key by their worlds
-    ActionId attack, struck_action;
-    Tick attack_age, struck_age;
-    StrikeKind kind;
-    Part striker, struck;
-    bool blocked;
-    int azimuth, elevation, yaw, speed;
-    BlowPlace place;
-  };
+  // The quantised impulse, as numbers of steps.
   struct ImpulseSteps {
     int victim;         // in the key by its world
     PoseMoment moment;  // of the pose class of the struck body
@@ -95,15 +86,19 @@ class ImpactMemo {
     BlowPlace place;
   };
 
-  BlowSteps steps_of(const LandedBlow& blow) const;
-  Vec3 impulse_of(const BlowSteps& steps) const;
-  ImpulseSteps steps_of(const BlowSteps& blow, Vec3 impulse) const;
-  float root_yaw(const BlowSteps& blow) const;  // of the struck body, in its action space
+  // `mobility`: of the body, action, tick, part and tone that it is given.
+  template <class Mobility>
+  Blow exact(const LandedBlow& blow, const Mobility& mobility) const;
+  Blow exact(const LandedBlow& blow) const;  // without the memo
+  Blow kept(const LandedBlow& blow);
+  ImpulseSteps steps_of(const LandedBlow& blow, Vec3 impulse) const;
+  float root_yaw(const LandedBlow& blow) const;  // of the struck body, in its action space
   // Seen from the struck body's root. `own`: what the struck body does without the blow, kept.
   ImpactAnswer answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const;
   KeptOwnMotion own_motion(const ImpulseSteps& steps);
   static ImpactAnswer turned(ImpactAnswer answer, float yaw);
-  Key key_of(const BlowSteps& steps) const;
+  // The answer to the exact blow, in the victim's action space, out of that to the steps.
+  ImpactAnswer carried(const ImpactAnswer& found, const LandedBlow& landed, const Blow& blow) const;
   Key key_of(const ImpulseSteps& steps) const;
   // Out of the store, else computed; and out of the memo before that.
   template <class Value, class Compute>
@@ -117,7 +112,7 @@ class ImpactMemo {
   std::vector<std::uint64_t> worlds_;  // ImpactKey::world, one a body
   MemoSteps size_;
   std::shared_ptr<ImpactStore> store_;
-  Shards<Vec3> impulses_;
+  Shards<PartMobility> mobilities_;
   Shards<ImpactAnswer> answers_;
   Shards<OwnMotion> own_motions_;  // by pose class and side
 };

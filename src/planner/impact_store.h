@@ -70,9 +70,9 @@ class ImpactShelf {
 };
 
 struct ImpactStore {
-  ImpactShelf<ImpactAnswer> answers;   // impulse steps
-  ImpactShelf<Vec3> impulses;          // of blows, N s
-  ImpactShelf<OwnMotion> own_motions;  // what struck bodies do by themselves
+  ImpactShelf<ImpactAnswer> answers;     // impulse steps
+  ImpactShelf<PartMobility> mobilities;  // of parts that strike or are struck
+  ImpactShelf<OwnMotion> own_motions;    // what struck bodies do by themselves
 };
 
 }  // namespace ringcraft

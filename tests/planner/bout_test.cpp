@@ -1,6 +1,6 @@
 // Do the paper's experiments emerge? Bouts inside the tree's own world: clips are shown as they
 // are, the memo answers the hits. The slow library has the paper's long actions ("most longer than
-// 1 second").
+// 1 second"). On the library that users have: tests/scene/experiments_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace ringcraft {
 namespace {
 
 struct Tally {
-  int attacks = 0, hits = 0, defenses = 0, steps = 0, faced = 0;
+  int hits = 0;
   double damage = 0;
 };
 
@@ -56,11 +56,6 @@ class BoutTest : public DuelFixture {
         }
         const ActionId action = planner.plan(state, FighterId(side), last_contact).launch.action;
         planner.note_launch(FighterId(side), action);
-        const Action& what = library.action(action);
-        tally[side].attacks += what.attacks() ? 1 : 0;
-        tally[1 - side].faced += what.attacks() ? 1 : 0;
-        tally[side].defenses += what.kind == Kind::defense ? 1 : 0;
-        tally[side].steps += what.kind == Kind::transition ? 1 : 0;
         const ActionTable& table = *node.side[side].flight.table;
         moves.push_back({action, static_cast<std::uint8_t>(side), false, table.find_next(action)});
       }
@@ -113,10 +108,6 @@ TEST_F(BoutTest, DeeperFighterWinsAndDeepFightsAreCareful) {
   };
   EXPECT_LT(sum(deep, &Tally::hits), 0.75 * sum(shallow, &Tally::hits));
   EXPECT_LT(sum(deep, &Tally::damage), 0.75 * sum(shallow, &Tally::damage));
-  const auto defended = [&](const std::array<Tally, 2>& t) {
-    return sum(t, &Tally::defenses) / sum(t, &Tally::faced);
-  };
-  EXPECT_GT(defended(deep), defended(shallow));
   EXPECT_GT(sum(deep, &Tally::hits), 0);  // careful, not passive
 }
 

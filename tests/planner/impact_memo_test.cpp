@@ -77,7 +77,9 @@ class ImpactMemoTest : public testing::Test {
     blow.kind = kind;
     blow.contact = contact;
     blow.attacker_yaw = striker.frame_at(t).yaw - target.frame_at(t).yaw;
-    const Placement seen = relative(target.frame_at(t), striker.frame_at(t)).placement();
+    const Frame frame = relative(target.frame_at(t), striker.frame_at(t));
+    const Placement seen = frame.placement();
+    blow.striking = frame.to_inner(contact.point);
     const Pose attacker = placed(striker.table->pose_at(blow.attack_age), seen);
     const ActionTable& action = *target.table;
     one.exact = blow_of(tables().body(), attacker, tables().body(), action.pose_at(blow.struck_age),
@@ -116,6 +118,14 @@ TEST_F(ImpactMemoTest, MostBlowsAreAnsweredAsTheUnquantisedStepWould) {
   ASSERT_GT(asked, 150u);
   EXPECT_GT(same_kind, asked * 80 / 100);
   EXPECT_GT(same_cut, asked * 90 / 100);
+}
+
+TEST_F(ImpactMemoTest, ImpulsesAreThoseOfTheBlow) {
+  ImpactMemo memo({&tables()});
+  for (const Met& one : random_blows(100, 6)) {
+    const float exact = glm::length(one.exact.impulse);
+    EXPECT_NEAR(memo.answer(one.blow).impulse, exact, 1e-3f * exact);
+  }
 }
 
 // What turns a head is that the blow passes beside its middle.
