@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file.h"
 #include "capture/library_builder.h"
 #include "scene/study_bouts.h"
 
@@ -20,10 +21,11 @@ double sum(const PairingResult& result, std::int64_t SideTally::*field) {
 TEST(Experiments, DeepFightersStepAndDefendMoreAndBeatShallowOnes) {
   const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
   ASSERT_TRUE(library) << library.error().what;
-  const Style balanced;
+  const auto balanced = read_style(assets_folder() / "styles" / "balanced.toml");
+  ASSERT_TRUE(balanced);
   std::vector<Pairing> pairings;
   for (const char* name : {"1.36v0.45", "0.45v0.45", "1.36v1.36"}) {
-    pairings.push_back(*horizon_pairing(name, balanced));
+    pairings.push_back(*horizon_pairing(name, *balanced));
   }
   SceneFile scene;
   scene.fighters.resize(2);
