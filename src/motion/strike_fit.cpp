@@ -531,10 +531,10 @@ bool as_tall(float ratio) {
   return std::abs(ratio - 1) <= 0.01f;
 }
 
-const Pose* standing_guard(const MotionLibrary& library) {
+const Pose* standing_guard(const MotionLibrary& library, Stance stance) {
   const Action* idle = nullptr;
   for (const Action& action : library.actions()) {
-    if (action.kind != Kind::idle || action.stance != Stance::orthodox) continue;
+    if (action.kind != Kind::idle || action.stance != stance) continue;
     if (idle == nullptr || (!is_authored(*idle) && is_authored(action))) idle = &action;
   }
   return idle == nullptr ? nullptr : &idle->clip.frames.front();

@@ -39,6 +39,6 @@ bool as_tall(float ratio);
 
 // The pose in which a library's fighters stand before one who strikes: the first frame of its first
 // authored idle, or of any. Null where there is none.
-const Pose* standing_guard(const MotionLibrary& library);
+const Pose* standing_guard(const MotionLibrary& library, Stance stance = Stance::orthodox);
 
 }  // namespace ringcraft

@@ -28,16 +28,16 @@ float apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
 }  // namespace
 
 float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
-                    std::span<const Pose> clip) {
+                    const Pose& rest, std::span<const Pose> clip) {
   if (clip.empty() || glm::length(input.blow.impulse) <= 0) return 0;
-  const auto rest = upper(body.skeleton, clip.front());
+  const auto at_rest = upper(body.skeleton, rest);
   float goes = 0;
-  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(body.skeleton, pose), rest));
+  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(body.skeleton, pose), at_rest));
   if (goes <= 0) return 0;
 
   ImpactInput calm = input;
   calm.blow.impulse *= 1e-6f;  // not nothing: it says on which side the blow lands
-  const auto still = clip.first(1);
+  const std::span still(&rest, 1);
   const auto struck = simulate_response(body, input, outcome, still, kMeasured);
   const auto unstruck = simulate_response(body, calm, outcome, still, kMeasured);
   float moved = 0;

@@ -10,9 +10,9 @@ namespace ringcraft {
 // is moved by it, against how far the clip moves a body. Zero impulse has none of it, 1 where the
 // body goes as far as the clip does. `clip`: the response's poses, world, one a tick from the
 // contact on. Both are the largest way of head, face and chest about the hips; the simulated one is
-// measured on the body that tracks the clip's first pose, with the blow and without it.
+// measured on the body that tracks `rest`, with the blow and without it.
 float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
-                    std::span<const Pose> clip);
+                    const Pose& rest, std::span<const Pose> clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that
 // share of their own way, so that what stands in both stands.

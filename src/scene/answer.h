@@ -20,6 +20,10 @@ struct Answer {
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
                  const ImpactInput& input, const ImpactOutcome& outcome);
 
+// What a partial response is measured from, world: the first pose of its clip with the trunk, the
+// head and the arms of the guard. A captured clip may begin with the head turned away.
+Pose rest_of(const MotionLibrary& library, const Launch& response, float scale);
+
 // The get-up that starts nearest to the pose that is shown, placed on it.
 Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen,
                    Tick now, const Pose& shown);

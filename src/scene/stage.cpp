@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "motion/ik.h"
 #include "physics/partial.h"
+#include "scene/answer.h"
 #include "scene/keep_out.h"
 
 namespace ringcraft {
@@ -78,8 +79,8 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
     pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
   }
   if (actor.share < 1) {
-    const Pose rest = pose_at(own, actor.launch, start, actor.body.scale);
-    pose = partial_pose(actor.body.skeleton, rest, pose, actor.share);
+    pose = partial_pose(actor.body.skeleton, rest_of(own, actor.launch, actor.body.scale), pose,
+                        actor.share);
   }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
                             tick);

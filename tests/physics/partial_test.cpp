@@ -22,7 +22,7 @@ class Partial : public testing::Test {
           from_rotation_vector({-bent, 0, 0}) * fighting.rotation[index(Joint::neck)];
     }
     const stance::Hit hit(body, fighting, part, impulse);
-    return share_of_clip(body, hit.input, {}, clip);
+    return share_of_clip(body, hit.input, {}, fighting, clip);
   }
 };
 

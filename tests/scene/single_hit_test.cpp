@@ -92,6 +92,33 @@ float jump_into_get_up(const HitAnswer& answer) {
 
 // One that sat down with a leg stretched out: led along a line to where the get-up has it, the foot
 // passed the hip and the leg turned over at 26 m/s. And one whose arm lies behind its back.
+// The clips that answer blows from the front begin with the head turned away by 45 degrees.
+TEST(SingleHit, ATapTurnsTheHeadLittleAndAHarderBlowMore) {
+  for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{-1, 0, 0}, Vec3{1, 0, 0}}) {
+    float last = 0;
+    for (const float impulse : {3.0f, 6.0f, 14.0f}) {
+      HitQuery hit = query("idle_guard_bounce", 0.1);
+      hit.impulse = impulse * way;
+      hit.part = Part::head;
+      const auto answer = simulate_hit(default_library(), hit);
+      ASSERT_TRUE(answer) << to_string(answer.error());
+      const auto& frames = answer->timeline.tracks[0].frames;
+      const auto from = static_cast<std::size_t>(answer->hit_tick);
+      const auto head = [&](std::size_t i) {
+        return world_pose(answer->bodies[0].skeleton, frames[i]).rotation[index(Joint::head)];
+      };
+      float turned = 0;
+      for (std::size_t i = from; i < from + 60; ++i) {
+        const Quat turn = in_hemisphere_of(head(i) * glm::conjugate(head(from)), Quat(1, 0, 0, 0));
+        turned = std::max(turned, degrees(glm::length(rotation_vector(turn))));
+      }
+      EXPECT_GT(turned, last) << impulse << " N s";
+      EXPECT_LT(turned, 4 * impulse) << impulse << " N s";
+      last = turned;
+    }
+  }
+}
+
 TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
   HitQuery seated = query("step_forward_left_long", .059);
   seated.part = Part::right_thigh;
