@@ -9,7 +9,6 @@ namespace ringcraft {
 namespace {
 
 constexpr float kMostPartSpeed = 15;    // m/s that a blow may give to the part it meets
-constexpr float kPartTone = .25f;       // of the struck part, for the mass that it offers
 constexpr float kStanding = .03f;       // m: a sole this near to the ground stands on it
 constexpr float kMostGrounding = .12f;  // m: farther from the ground it is in the air after all
 constexpr float kMostShift = .12f;      // m: of the pelvis, against the drift
@@ -159,7 +158,7 @@ void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, f
   Vec3 met = blow.point;  // where the point was when the blow landed
   for (Part part = blow.part; left > 0;) {
     const int parent = parent_of(part);
-    const float mass = effective_mass(body, frame.pose(), part, met, line, kPartTone);
+    const float mass = effective_mass(body, frame.pose(), part, met, line, kStruckTone);
     const float taken = parent < 0 ? left : std::min(left, mass * kMostPartSpeed);
     ragdoll.push(part, point, line * (taken * share));
     left -= taken;

@@ -281,41 +281,37 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   const Tick age_a = a.age(tick), age_b = b.age(tick);
   const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
   const Sphere& bound_b = b.table->bound_at(age_b);
-  const auto near = [least](Vec3 center, float radius, const Sphere& other) {
-    const float reach = radius + other.radius - least;
-    return reach > 0 && glm::distance2(center, other.center) < reach * reach;
+  const auto near = [least](const Sphere& one, const Sphere& other) {
+    const float reach = one.radius + other.radius - least;
+    return reach > 0 && glm::distance2(one.center, other.center) < reach * reach;
   };
   const Sphere& bound_a = a.table->bound_at(age_a);
-  if (!near(seen.to_outer(bound_a.center), bound_a.radius, bound_b)) return 0;
+  if (!near({seen.to_outer(bound_a.center), bound_a.radius}, bound_b)) return 0;
   const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
   // The parts of each that touch the box around the other's.
-  struct Candidate {
-    Vec3 center;
-    float radius;
-    std::size_t part;
+  struct Near {
+    Sphere sphere;
+    std::size_t part = 0;
   };
-  std::array<Candidate, kPartCount> own, their;
+  std::array<Near, kPartCount> own, their;
   std::size_t own_count = 0, their_count = 0;
-  const auto touches_box = [](Vec3 center, float radius, const Box& box) {
-    return glm::distance2(center, glm::clamp(center, box.low, box.high)) <= radius * radius;
+  const auto touches_box = [](const Sphere& one, const Box& box) {
+    const Vec3 nearest = glm::clamp(one.center, box.low, box.high);
+    return glm::distance2(one.center, nearest) <= one.radius * one.radius;
   };
   const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
   Box reached{Vec3(1e9f), Vec3(-1e9f)};
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Vec3 center = seen.to_outer(spheres_a[i].center);
-    const float radius = spheres_a[i].radius;
-    if (((excepted_a >> i) & 1u) != 0 || !touches_box(center, radius, b.table->box_at(age_b)))
-      continue;
-    own[own_count++] = {center, radius, i};
-    reached.low = glm::min(reached.low, center - radius);
-    reached.high = glm::max(reached.high, center + radius);
+    const Sphere sphere{seen.to_outer(spheres_a[i].center), spheres_a[i].radius};
+    if (((excepted_a >> i) & 1u) != 0 || !touches_box(sphere, b.table->box_at(age_b))) continue;
+    own[own_count++] = {sphere, i};
+    reached.low = glm::min(reached.low, sphere.center - sphere.radius);
+    reached.high = glm::max(reached.high, sphere.center + sphere.radius);
   }
   if (own_count == 0) return 0;
   for (std::size_t j = 0; j < kPartCount; ++j) {
-    const Sphere& sphere = spheres_b[j];
-    if (((excepted_b >> j) & 1u) != 0 || !touches_box(sphere.center, sphere.radius, reached))
-      continue;
-    their[their_count++] = {sphere.center, sphere.radius, j};
+    if (((excepted_b >> j) & 1u) != 0 || !touches_box(spheres_b[j], reached)) continue;
+    their[their_count++] = {spheres_b[j], j};
   }
   const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
   const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
@@ -323,7 +319,7 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   for (std::size_t i = 0; i < own_count; ++i) {
     const Capsule& mine = capsules_a[own[i].part];
     for (std::size_t j = 0; j < their_count; ++j) {
-      if (!near(own[i].center, own[i].radius, {their[j].center, their[j].radius})) continue;
+      if (!near(own[i].sphere, their[j].sphere)) continue;
       const Capsule& other = capsules_b[their[j].part];
       const float distance =
           segment_distance(seen.to_outer(mine.a), seen.to_outer(mine.b), other.a, other.b).distance;
