@@ -261,6 +261,7 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
     strike.kind = wanted.kind;
     strike.joint = wanted.joint;
     strike.zone = wanted.zone;
+    strike.aim = wanted.aim;
     const Tick around = ticks(kSearchAround);
     const Tick peak = fastest_tick(skeleton, action.clip, wanted.joint, std::max(1, at - around),
                                    std::min(at + around, action.length() - 1));

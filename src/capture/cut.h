@@ -24,7 +24,8 @@ struct StrikeCut {
   StrikeKind kind = StrikeKind::straight;
   Joint joint = Joint::left_hand;
   TargetZone zone = TargetZone::head;
-  double at = 0;  // s: the joint's peak speed
+  double at = 0;         // s: the joint's peak speed
+  std::string aim = {};  // what it is led to (motion/aim.h); empty: the captured way stays
 };
 
 // One action of a manifest. Times in seconds from the capture's first frame.

@@ -15,6 +15,7 @@
 #include "capture/retarget.h"
 #include "capture/segment.h"
 #include "capture/sheet.h"
+#include "motion/strike_fit.h"
 
 namespace ringcraft {
 namespace {
@@ -50,6 +51,7 @@ ActionCut cut_from(const Json& value) {
     s.joint = *joint_from_vrm_name(text_of(strike, "joint"));
     s.zone = *zone_from_name(text_of(strike, "zone"));
     s.at = number_of(strike, "at");
+    s.aim = text_of(strike, "aim");
     cut.strikes.push_back(s);
   }
   if (const auto it = value.find("defense"); it != value.end())
@@ -233,6 +235,19 @@ Result<void> add_sheets(const Document& manifest, std::size_t number, const std:
   return {};
 }
 
+// Captured blows of shadow work are thrown at nobody: those that name an aim are led to it.
+void lead_to_aims(std::vector<Action>& actions) {
+  const Pose* guard = standing_guard(actions);
+  if (guard == nullptr) return;
+  const Pose standing = *guard;
+  for (Action& action : actions) {
+    const bool names = std::any_of(action.strikes.begin(), action.strikes.end(),
+                                   [](const Strike& strike) { return !strike.aim.empty(); });
+    if (is_authored(action) || !names) continue;
+    action = aimed(canonical_skeleton(), action, standing);
+  }
+}
+
 Result<void> collect(const Document& manifest, Collector& out) {
   const Json captures = manifest.value.value("capture", Json::array());
   for (std::size_t i = 0; i < captures.size(); ++i)
@@ -240,6 +255,7 @@ Result<void> collect(const Document& manifest, Collector& out) {
   const Json sheets = manifest.value.value("sheets", Json::array());
   for (std::size_t i = 0; i < sheets.size(); ++i)
     if (auto ok = add_sheets(manifest, i, sheets[i].get<std::string>(), out); !ok) return ok;
+  lead_to_aims(out.actions);
   if (out.actions.empty())
     return input_error(manifest.path.string(), "", "the manifest leads to no action",
                        "name captures or sheets");

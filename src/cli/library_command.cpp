@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/library_page.h"
 #include "motion/strike_fit.h"
+#include "scene/fitted_library.h"
 #include "scene/library_check.h"
 #include "scene/sparring.h"
 
@@ -171,14 +172,20 @@ int run_library_check(const std::string& name, const CheckHeights& heights,
   const double own = heights.own > 0 ? heights.own : static_cast<double>(kCanonicalHeight);
   const double opponent = heights.opponent > 0 ? heights.opponent : own;
   const auto ratio = static_cast<float>(opponent / own);
-  if (!as_tall(ratio)) library = fitted(*library, ratio);
+  if (!as_tall(ratio)) library = fitted_library(*library, ratio);
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);
   if (options.json) {
     fmt::print("{}\n", json_of(check).dump(1));
   } else {
     if (!options.quiet) print_table(check);
+    for (const ActionMeasures& m : check.actions) {
+      if (m.left_out) fmt::print("left out, not to be thrown at this opponent: {}\n", m.name);
+    }
     for (const std::string& fault : check.faults) fmt::print("{}\n", fault);
-    fmt::print("{} actions, {} faults\n", library->actions().size(), check.faults.size());
+    const auto left_out = std::count_if(check.actions.begin(), check.actions.end(),
+                                        [](const auto& m) { return m.left_out; });
+    fmt::print("{} actions, {} faults\n",
+               library->actions().size() - static_cast<std::size_t>(left_out), check.faults.size());
   }
   return check.faults.empty() ? 0 : 1;
 }

@@ -4,10 +4,35 @@
 
 #include <fmt/format.h>
 
+#include "base/schema.h"
 #include "capture/library_file.h"
+#include "motion/feints.h"
 #include "scene/fight.h"
 
 namespace ringcraft {
+
+namespace {
+
+// Every attack that the scene's fighters may feign must be there, and leave the time for it.
+Result<void> check_feints(const SceneFile& scene, const MotionLibrary& library) {
+  for (const std::string& name : scene.feints) {
+    const ActionId id = library.find(name);
+    if (id.valid() && can_be_feigned(library.action(id))) continue;
+    std::vector<std::string> known;
+    for (const Action& action : library.actions()) {
+      if (can_be_feigned(action)) known.push_back(action.name);
+    }
+    const std::string near = nearest_word(name, known);
+    return usage_error(scene.path.string(), "feints",
+                       fmt::format("{} \"{}\" {}", id.valid() ? "action" : "no action", name,
+                                   id.valid() ? "cannot be feigned" : "in the library"),
+                       near.empty() ? "name an attack; `ringcraft library inspect` shows them all"
+                                    : "did you mean \"" + near + "\"?");
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
                              const std::vector<std::string>& more) {
@@ -18,8 +43,13 @@ Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOption
 }
 
 Result<MotionLibrary> library_of(const SceneFile& scene) {
-  auto loaded = load_library(scene.library);
+  return library_of(scene, scene.library);
+}
+
+Result<MotionLibrary> library_of(const SceneFile& scene, const std::filesystem::path& library) {
+  auto loaded = load_library(library);
   if (!loaded) return tl::unexpected(loaded.error());
+  if (auto done = check_feints(scene, *loaded); !done) return tl::unexpected(done.error());
   return library_for(scene, std::move(*loaded));
 }
 

@@ -16,5 +16,7 @@ Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOption
 
 // The scene's library, as its fighters need it (library_for).
 Result<MotionLibrary> library_of(const SceneFile& scene);
+// Another library for the same fighters.
+Result<MotionLibrary> library_of(const SceneFile& scene, const std::filesystem::path& library);
 
 }  // namespace ringcraft

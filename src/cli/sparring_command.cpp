@@ -7,6 +7,7 @@
 #include "capture/person.h"
 #include "cli/commands.h"
 #include "motion/strike_fit.h"
+#include "scene/fitted_library.h"
 #include "scene/pair_sparring.h"
 #include "scene/scene_file.h"
 #include "scene/sparring.h"
@@ -94,7 +95,7 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   settings.threads = options.threads;
   settings.interrupted = &interrupted;
   const float ratio = defender->skeleton.height / attacker->skeleton.height;
-  const MotionLibrary blows = as_tall(ratio) ? *library : fitted(*library, ratio);
+  const MotionLibrary blows = as_tall(ratio) ? *library : fitted_library(*library, ratio);
   const MotionTables attacks(blows, *attacker), defenses(*library, *defender);
   const Sparring found = spar(attacks, defenses, settings);
   if (interrupted) return 130;

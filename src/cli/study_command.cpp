@@ -131,7 +131,7 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, const Bou
   StudyOptions of_scene;  // bodies, health and planner are those of the default scene
   const auto scene = scene_of(of_scene, common);
   if (!scene) return fail(scene.error());
-  auto library = load_library(options.library);
+  auto library = library_of(*scene, options.library);
   if (!library) return fail(library.error());
   const MotionLibrary used =
       options.slow > 1 ? slowed_library(*library, options.slow) : std::move(*library);

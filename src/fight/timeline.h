@@ -1,7 +1,9 @@
 #pragma once
 // The timeline: the record that is kept of a fight.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ struct Segment {
   Launch launch;
   std::string name;  // of the action
   Kind kind = Kind::idle;
+  bool feint = false;
 };
 
 struct FighterTrack {
@@ -33,18 +36,35 @@ enum class EventType : std::uint8_t {
 };
 std::string_view name_of(EventType type);
 
+// What a line of the tree is worth by each term of the evaluation, thousandths of a point of the
+// deciding fighter's score: what its own part credits, and what the opponent's takes away.
+struct LineTerms {
+  std::int32_t location = 0, hit = 0, defense = 0, control = 0;
+  bool operator==(const LineTerms&) const = default;
+};
+
 // One line of the tree that a decision weighed.
 struct Line {
   std::vector<std::string> actions;  // alternating as the tree did, "name" or "*name" where forced
   std::vector<int> actors;           // who launches each
   std::int32_t score = 0;            // thousandths of a point, for the deciding fighter
   bool at_most = false;              // the score is an upper bound: not worth looking at further
+  // By the deciding fighter and its opponent; they add up to the score. Without a value where the
+  // line is not known down to the horizon.
+  std::optional<std::array<LineTerms, 2>> terms;
+};
+
+// A first move that was struck off, with the names of the rules that did.
+struct StruckOff {
+  std::string action;
+  std::vector<std::string> rules;
 };
 
 struct DecisionRecord {
   std::vector<Line> lines;  // best first, those with an upper bound behind the others
   std::int32_t chosen = 0;  // index in lines
-  Tick horizon = 0;         // ticks looked ahead: less than asked for under a node limit
+  std::vector<StruckOff> struck_off;
+  Tick horizon = 0;  // ticks looked ahead: less than asked for under a node limit
   std::uint64_t nodes = 0, leaves = 0, forced_nodes = 0;
   std::uint64_t pruned_unanswered_hit = 0, pruned_back_turned = 0, pruned_penetration = 0,
                 pruned_candidates = 0;

@@ -49,6 +49,14 @@ json line_json(const Line& line) {
   }
   json object = {{"score", rounded(line.score / 1000.0, 3)}, {"moves", std::move(moves)}};
   if (line.at_most) object["at_most"] = true;  // the score is an upper bound
+  if (line.terms) {
+    for (const LineTerms& of : *line.terms) {
+      object["terms"].push_back({{"location", rounded(of.location / 1000.0, 3)},
+                                 {"hit", rounded(of.hit / 1000.0, 3)},
+                                 {"defense", rounded(of.defense / 1000.0, 3)},
+                                 {"control", rounded(of.control / 1000.0, 3)}});
+    }
+  }
   return object;
 }
 
@@ -65,6 +73,11 @@ void add_decision(json& object, const DecisionRecord& decision, bool with_lines)
   json lines = json::array();
   for (const Line& line : decision.lines) lines.push_back(line_json(line));
   object["lines"] = std::move(lines);
+  json struck = json::array();
+  for (const StruckOff& one : decision.struck_off) {
+    struck.push_back({{"action", one.action}, {"rules", one.rules}});
+  }
+  object["struck_off"] = std::move(struck);
 }
 
 // The caller's fields over the writer's own; what is said of fighters is put together.

@@ -64,6 +64,12 @@ struct Response {
 
 enum class Lying : std::uint8_t { none, back, front, side, seat };
 
+// Begins exactly as an attack does and turns back before the blow (motion/feints.h).
+struct Feint {
+  std::string of;   // the attack's name
+  Tick parted = 0;  // the first tick at which the two differ
+};
+
 // Which foot is ahead: orthodox the left one, southpaw the right one.
 enum class Stance : std::uint8_t { orthodox, southpaw };
 
@@ -74,12 +80,13 @@ struct Action {
   std::vector<Strike> strikes;  // attacks and combinations; empty otherwise
   std::optional<Defense> defense;
   std::optional<Response> response;
+  std::optional<Feint> feint;        // transitions that feign an attack
   Lying starts_lying = Lying::none;  // get-ups
   Lying ends_lying = Lying::none;    // knockdowns
   Stance stance = Stance::orthodox;  // of whom it is for
   bool switches = false;             // ends in the other stance
-  // Made by the builder from a way through the motion graph: leads from one action to another and
-  // is never chosen for itself.
+  // Leads from one action to another and is never chosen for itself: made by the builder from a way
+  // through the motion graph, or an attack that cannot be thrown at this opponent (is_left_out).
   bool connects = false;
   std::string source;  // the capture or sheet, with the seconds cut from it
 

@@ -110,6 +110,20 @@ Clip cut(const Clip& clip, Tick first, Tick last) {
   return result;
 }
 
+Clip retimed(const Clip& clip, const std::vector<float>& times) {
+  Clip result;
+  for (const float t : times) {
+    const auto tick = static_cast<Tick>(t);
+    const float share = t - static_cast<float>(tick);
+    result.frames.push_back(share == 0 ? clip.at(tick)
+                                       : mix(clip.at(tick), clip.at(tick + 1), share));
+    result.root.push_back(mix(clip.root_at(tick), clip.root_at(tick + 1), share));
+    result.contacts.push_back(clip.contacts_at(share < 0.5f ? tick : tick + 1));
+  }
+  unroll_rotations(result);
+  return result;
+}
+
 void unroll_rotations(Clip& clip) {
   for (std::size_t i = 1; i < clip.frames.size(); ++i) {
     for (std::size_t j = 0; j < kJointCount; ++j) {

@@ -44,6 +44,10 @@ Clip mirrored(const Clip& clip);
 // Frames first..last (both included), moved so that frame `first`'s root placement is the identity.
 Clip cut(const Clip& clip, Tick first, Tick last);
 
+// The clip as it looks at the given times, ticks of the source (fractions between its frames), one
+// a tick of the result. They may run at any speed and back, and begin at the source's first frame.
+Clip retimed(const Clip& clip, const std::vector<float>& times);
+
 // Puts neighbouring rotations in one hemisphere.
 void unroll_rotations(Clip& clip);
 

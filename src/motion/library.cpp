@@ -42,6 +42,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
       hasher.add(action.response->direction).add(action.response->zone.has_value());
       hasher.add(action.response->zone.value_or(TargetZone::head));
     }
+    if (action.feint) hasher.add(action.feint->of).add(action.feint->parted);
     hasher.add(action.starts_lying).add(action.ends_lying);
     if (action.connects) hasher.add(action.connects);
     if (action.stance != Stance::orthodox) hasher.add(action.stance);

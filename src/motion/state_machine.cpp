@@ -58,7 +58,7 @@ Edges find_edges(const Skeleton& skeleton, const std::vector<Action>& actions,
 
 // What a path between launched actions may lead over: motion that asks nothing of the opponent.
 bool connects(const Action& action) {
-  return action.kind == Kind::transition || action.kind == Kind::idle;
+  return !action.feint && (action.kind == Kind::transition || action.kind == Kind::idle);
 }
 
 // The same out of a fall, which a get-up must follow first. Only falls have edges to get-ups.

@@ -496,7 +496,7 @@ Action fitted(const Skeleton& skeleton, const Action& action, const Pose& guard,
   mover.solve(false);
   Action result = action;
   result.clip = mover.clip();
-  for (Strike& strike : result.strikes) find_reach(skeleton, result, standing, ratio, strike);
+  find_reaches(skeleton, guard, ratio, result);
   return result;
 }
 
@@ -506,10 +506,36 @@ Action moved_reach(const Skeleton& skeleton, const Action& action, const Pose& g
   mover.solve(true);
   Action result = action;
   result.clip = mover.clip();
-  for (Strike& strike : result.strikes) {
-    find_reach(skeleton, result, world_pose(skeleton, guard), 1, strike);
+  find_reaches(skeleton, guard, 1, result);
+  return result;
+}
+
+Action aimed(const Skeleton& skeleton, const Action& action, const Pose& guard) {
+  const WorldPose standing = world_pose(skeleton, guard);
+  Mover mover(skeleton, action, guard);
+  for (Led& led : mover.strikes()) {
+    const AimPoint* point = aim_point(led.strike.aim);
+    if (point == nullptr) continue;
+    const Vec3 theirs = opponent_aim(*point, standing, 1, 0);
+    led.aim.x = theirs.x;
+    led.aim.y = theirs.y;
+  }
+  mover.solve(false);
+  Action result = action;
+  result.clip = mover.clip();
+  const std::vector<Meeting> met = meetings(skeleton, result, guard);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    Strike& strike = result.strikes[i];
+    strike.nearest = strike.farthest = met[i].at.z;
+    find_reach(skeleton, result, standing, 1, strike);
+    if (strike.farthest <= 0) strike.aim.clear();
   }
   return result;
+}
+
+void find_reaches(const Skeleton& skeleton, const Pose& guard, float ratio, Action& action) {
+  const WorldPose standing = world_pose(skeleton, guard);
+  for (Strike& strike : action.strikes) find_reach(skeleton, action, standing, ratio, strike);
 }
 
 MotionLibrary fitted(const MotionLibrary& library, float ratio) {
@@ -527,17 +553,25 @@ MotionLibrary fitted(const MotionLibrary& library, float ratio) {
                                     library.switches()});
 }
 
+bool is_left_out(const Action& action) {
+  return action.connects && action.attacks();
+}
+
 bool as_tall(float ratio) {
   return std::abs(ratio - 1) <= 0.01f;
 }
 
-const Pose* standing_guard(const MotionLibrary& library, Stance stance) {
+const Pose* standing_guard(const std::vector<Action>& actions, Stance stance) {
   const Action* idle = nullptr;
-  for (const Action& action : library.actions()) {
+  for (const Action& action : actions) {
     if (action.kind != Kind::idle || action.stance != stance) continue;
     if (idle == nullptr || (!is_authored(*idle) && is_authored(action))) idle = &action;
   }
   return idle == nullptr ? nullptr : &idle->clip.frames.front();
+}
+
+const Pose* standing_guard(const MotionLibrary& library, Stance stance) {
+  return standing_guard(library.actions(), stance);
 }
 
 }  // namespace ringcraft

@@ -30,15 +30,27 @@ Action fitted(const Skeleton& skeleton, const Action& action, const Pose& guard,
 // The action with its strikes `by` m farther (nearer where negative), against somebody as tall.
 Action moved_reach(const Skeleton& skeleton, const Action& action, const Pose& guard, float by);
 
+// The action with every strike that names an aim, and no reach yet, led up, down and sideways until
+// it meets it on a body as tall; the reach is where it does. A strike that does not keeps no aim.
+Action aimed(const Skeleton& skeleton, const Action& action, const Pose& guard);
+
 // The library against somebody `ratio` times as tall: the same actions in the same order, with the
 // same edges and paths. There is no motion graph.
 MotionLibrary fitted(const MotionLibrary& library, float ratio);
+
+// Sets the reaches of an attack's strikes to where they pass their aims on somebody `ratio` times
+// as tall, looked for near the old ones.
+void find_reaches(const Skeleton& skeleton, const Pose& guard, float ratio, Action& action);
+
+// Whether it is an attack that nobody chooses: it cannot be thrown at an opponent of that height.
+bool is_left_out(const Action& action);
 
 // Whether somebody `ratio` times as tall needs no clips of his own: up to 1 % taller or shorter.
 bool as_tall(float ratio);
 
 // The pose in which a library's fighters stand before one who strikes: the first frame of its first
 // authored idle, or of any. Null where there is none.
+const Pose* standing_guard(const std::vector<Action>& actions, Stance stance = Stance::orthodox);
 const Pose* standing_guard(const MotionLibrary& library, Stance stance = Stance::orthodox);
 
 }  // namespace ringcraft

@@ -195,13 +195,11 @@ class Mender {
       const WorldPose world = world_pose(body_.skeleton, pose);
       const float sunk = depth_below_ground(body_, world, side);
       if (sunk >= kLeast) lift(body_, leg(side), sunk, kForward, pose);
-      const Part hand = side == Side::left ? Part::left_hand : Part::right_hand;
-      const Capsule glove = capsules(body_, world)[index(hand)];
-      const float deep = glove.radius - std::min(glove.a.y, glove.b.y);
-      if (deep >= kLeast) lift_glove(side, deep, pose);
+      lift_glove(side, before, pose);
     }
     pose = within_limits(body_, pose, kLimitTolerance, before);
     if (started_) hold_back(simulated, pose);
+    for (const Side side : {Side::left, Side::right}) lift_glove(side, before, pose);
     raise(pose);
     started_ = true;
     simulated_ = simulated;
@@ -222,13 +220,27 @@ class Mender {
 
   static float angle(Quat a, Quat b) { return glm::length(rotation_vector(a * glm::conjugate(b))); }
 
-  // The hand goes with the forearm. A glove that its arm cannot lift within its ranges stays sunk.
-  void lift_glove(Side side, float depth, Pose& pose) const {
-    Pose lifted = pose;
-    const std::size_t hand = index(arm(side).end);
-    lift(body_, arm(side), depth, -kForward, lifted);
-    lifted.rotation[hand] = pose.rotation[hand];
-    if (limit_violations(body_, lifted, kLimitTolerance + radians(.5f)).empty()) pose = lifted;
+  // The hand goes with the forearm, which turns it: it takes more than one go. As far as the arm's
+  // ranges let it.
+  void lift_glove(Side side, const Pose& before, Pose& pose) const {
+    constexpr int kGoes = 3;
+    for (int i = 0; i < kGoes; ++i) {
+      const float depth = glove_depth(side, pose);
+      if (depth < kLeast) return;
+      Pose lifted = pose;
+      const std::size_t hand = index(arm(side).end);
+      lift(body_, arm(side), depth, -kForward, lifted);
+      lifted.rotation[hand] = pose.rotation[hand];
+      lifted = within_limits(body_, lifted, kLimitTolerance, before);
+      if (glove_depth(side, lifted) >= depth) return;
+      pose = lifted;
+    }
+  }
+
+  float glove_depth(Side side, const Pose& pose) const {
+    const Part hand = side == Side::left ? Part::left_hand : Part::right_hand;
+    const Capsule glove = capsules(body_, world_pose(body_.skeleton, pose))[index(hand)];
+    return glove.radius - std::min(glove.a.y, glove.b.y);
   }
 
   // What no limb can mend, the whole body does: soles at once, anything else that is deep bit by
@@ -246,17 +258,26 @@ class Mender {
     pose.hips.y += up;
   }
 
-  // The correction of each joint may grow and go by so much a tick and no more.
+  // A joint moves by so much a tick more than it does in the simulation, and no more. From one pose
+  // inside its range to another it stays inside, where holding back the correction alone would let
+  // it out.
   void hold_back(const Pose& simulated, Pose& pose) const {
     for (std::size_t j = 0; j < kJointCount; ++j) {
-      const Quat last = shown_.rotation[j] * glm::conjugate(simulated_.rotation[j]);
-      const Quat wanted = pose.rotation[j] * glm::conjugate(simulated.rotation[j]);
-      const float turn = angle(wanted, last), most = most_turn(joint_at(j));
-      if (turn <= most) continue;
-      const Quat held =
-          glm::normalize(glm::slerp(last, in_hemisphere_of(wanted, last), most / turn));
-      pose.rotation[j] = glm::normalize(held * simulated.rotation[j]);
+      const Quat last = shown_.rotation[j], wanted = pose.rotation[j];
+      const float turn = angle(wanted, last);
+      const float most =
+          angle(simulated.rotation[j], simulated_.rotation[j]) + most_turn(joint_at(j));
+      if (turn > most) pose.rotation[j] = between(joint_at(j), last, wanted, most / turn);
     }
+  }
+
+  static Quat between(Joint joint, Quat a, Quat b, float share) {
+    for (const Side side : {Side::left, Side::right}) {
+      for (const Limb& limb : {arm(side), leg(side)}) {
+        if (joint == limb.root) return mix_root(side, limb, a, b, share);
+      }
+    }
+    return glm::normalize(glm::slerp(a, in_hemisphere_of(b, a), share));
   }
 
   const BodyModel& body_;

@@ -106,8 +106,7 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   // A bystander's blow on the planner counts as if the opponent had struck.
   const int winner = std::min(event.attacker, 1);
   const SideSetup& attacker = side(winner);
-  credit(node, winner,
-         hit_points(attacker.weights, *attacker.style, event.blow.kind, damage, knocks_down),
+  credit(node, winner, hit_points(attacker.weights, event.blow.kind, damage, knocks_down),
          Term::hit);
   const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
   if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&

@@ -16,6 +16,8 @@ constexpr double kAnswerable =
 constexpr double kDefenseShare =
     0.8;  // share of a threat that a well-timed defense is expected to take
 
+constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
+
 const float kSineAttack = std::sin(kMostAttackAim), kCosineAttack = std::cos(kMostAttackAim);
 const float kSineOther = std::sin(kMostAim), kCosineOther = std::cos(kMostAim);
 
@@ -47,6 +49,19 @@ float reaching(const StrikeTable& strike, Vec3 target) {
   const float gap = target.z - strike.landing.z;
   const float aside = std::abs(target.x - 0.5f * strike.landing.x);
   return falling(gap, 0.08f, 0.28f) * falling(-gap, 0.45f, 0.75f) * falling(aside, 0.15f, 0.40f);
+}
+
+// How likely the opponent is, by what was seen of it, to answer what looks like an attack with a
+// defense there.
+double answers_attacks(const Habits& habits, const MotionLibrary& library, float distance,
+                       Kind last) {
+  const Situation situation = situation_of(distance, last, true);
+  int defenses = 0;
+  for (const Habits::Seen& seen : habits.seen(situation)) {
+    if (library.action(seen.action).kind == Kind::defense) defenses += seen.count;
+  }
+  const int total = habits.total(situation);
+  return total == 0 ? 0 : Habits::belief(total) * defenses / total;
 }
 
 // Preference among kinds of one list.
@@ -166,8 +181,7 @@ double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& 
     if (reach <= 0) continue;
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
     points += sure * static_cast<double>(reach) *
-              hit_points(own->weights, *own->style, strike.strike.kind,
-                         own->clean_damage[id.at()][i], false);
+              hit_points(own->weights, strike.strike.kind, own->clean_damage[id.at()][i], false);
   }
   return points;
 }
@@ -208,7 +222,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     threat.from = {frame.x, 0, frame.z};
     threat.to = frame.to_outer(strike.landing);
     threat.worth =
-        aspect.own->weights.caution * hit_points(their.weights, *their.style, strike.strike.kind,
+        aspect.own->weights.caution * hit_points(their.weights, strike.strike.kind,
                                                  their.clean_damage[launch.action.at()][i], false);
     aspect.threats.push_back(threat);
   }
@@ -225,6 +239,14 @@ void Duel::score_candidates(const Node& node, int who) {
   std::size_t count = 0;
   float least_turned = -2;
   Scored spare{};
+  double feint = 0;  // points that a feint is expected to bring
+  if (who == 0 && setup_->habits != nullptr) {
+    const InFlight& other = node.side[1].flight;
+    const Vec3 apart = aspect.opponent_now - Vec3(aspect.end.x, 0, aspect.end.z);
+    feint = kFeintWorth * setup_->learning *
+            answers_attacks(*setup_->habits, own.tables->library(), std::hypot(apart.x, apart.z),
+                            other.table->action->kind);
+  }
   for (const NextAction& next : self.flight.table->next) {
     if (aspect.late && next.particular) continue;
     aspect.now = node.now + next.lead;
@@ -246,6 +268,13 @@ void Duel::score_candidates(const Node& node, int who) {
       scored_[count++] = one;
     }
   }
+  Scored* feigned = nullptr;  // the best feint: one is enough to weigh
+  for (std::size_t i = 0; feint > 0 && i < count; ++i) {
+    Scored& one = scored_[i];
+    if (!one.next->table->action->feint) continue;
+    if (feigned == nullptr || one.score > feigned->score) feigned = &one;
+  }
+  if (feigned != nullptr) feigned->score += thousandths(feint);
   if (count == 0 && spare.next != nullptr) scored_[count++] = spare;
   scored_.resize(count);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
@@ -261,7 +290,11 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
   const Duelist& self = node.side[1];
   const float apart = glm::distance(node.side[0].flight.root_at(node.now).position(),
                                     self.flight.root_at(node.now).position());
-  const Situation situation = situation_of(apart, self.flight.table->action->kind);
+  const InFlight& met = node.side[0].flight;
+  const Situation situation =
+      situation_of(apart, self.flight.table->action->kind,
+                   looks_like_attack(*met.table->action, node.now - met.launch.start,
+                                     side(1).style->late_sight_s));
   const int total = setup_->habits->total(situation);
   if (total == 0) return;
   const double belief = setup_->learning * Habits::belief(total);

@@ -41,6 +41,11 @@ DuelCounts& DuelCounts::operator+=(const DuelCounts& o) {
   return *this;
 }
 
+DuelCounts DuelCounts::operator-(const DuelCounts& o) const {
+  return {unanswered_hit - o.unanswered_hit, back_turned - o.back_turned,
+          penetration - o.penetration, candidates - o.candidates};
+}
+
 DuelNode Duel::root(const DuelSetup& setup, const FightState& state) {
   Node node;
   node.now = state.now;
@@ -177,13 +182,27 @@ Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
   return child;
 }
 
-void Duel::check(const Node& node, const Move& move, Child<Node>& child) {
+void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
   if (move.forced || !setup_->settings.prune.penetration) return;
-  child.fault += penetration_fault(child.node, move.side, node.now, child.node.now);
+  child.fault += penetration_fault(child.node, move.side, child.node.checked, child.node.now);
+  child.node.checked = child.node.now;
+}
+
+bool Duel::resume(const Node& /*node*/, const Move& move, Child<Node>& child) {
+  const auto struck = [&] {
+    return child.node.side[0].pending.valid() || child.node.side[1].pending.valid();
+  };
+  if (struck()) return true;
+  const DuelCounts before = counts_;
+  child.fault += advance(child.node, move);
+  // A hit that cuts an action takes back what the edge was credited with for earlier evasions.
+  if (struck()) counts_ = before;
+  return !struck();
 }
 
 Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   Child<Node> child{node, 0};
+  child.node.checked = node.now;
   Duelist& self = child.node.side[move.side];
   Duelist& other = child.node.side[static_cast<std::size_t>(1 - move.side)];
   const bool responds = self.pending.valid();

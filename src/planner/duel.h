@@ -38,6 +38,7 @@ struct DuelNode {
   std::array<Duelist, 2> side;
   std::int32_t gained = 0;        // f along the route so far, thousandths
   std::uint32_t threats_met = 0;  // bit 4 * other + strike: a strike of another fighter has landed
+  Tick checked = 0;               // up to where the last edge was looked at for penetration
 };
 
 struct DuelMove {
@@ -104,6 +105,7 @@ using DuelTerms = std::array<std::array<TermSum, kTerms>, 2>;  // by side and te
 struct DuelCounts {
   std::uint64_t unanswered_hit = 0, back_turned = 0, penetration = 0, candidates = 0;
   DuelCounts& operator+=(const DuelCounts& o);
+  DuelCounts operator-(const DuelCounts& o) const;
 };
 
 class Duel {
@@ -126,6 +128,9 @@ class Duel {
   // The same in two parts: check() adds to the fault how far bodies penetrate on the way.
   Child<Node> step(const Node& node, const Move& move);
   void check(const Node& node, const Move& move, Child<Node>& child);
+  // A child that a shorter horizon cut off is played on to this one; false where what comes later
+  // changes what came before.
+  bool resume(const Node& node, const Move& move, Child<Node>& child);
   std::uint32_t key(const Move& move) const {
     return static_cast<std::uint32_t>(move.action.value) * 2 + move.side;
   }
@@ -139,6 +144,7 @@ class Duel {
   }
 
   const DuelCounts& counts() const { return counts_; }
+  void count(const DuelCounts& counts) { counts_ += counts; }
   void clear_counts() { counts_ = {}; }
   void record_into(std::vector<DuelEvent>* events) { events_ = events; }
   void record_terms_into(DuelTerms* terms) { terms_ = terms; }

@@ -31,6 +31,10 @@ Weights weights_at(const Style& style, double quiet) {
   w.duration = style.duration_weight;
   w.attack_bonus = style.attack_bonus + 10 * bored;
   w.leaf = style.leaf;
+  for (std::size_t i = 0; i < kStrikeKinds; ++i) {
+    const auto found = style.strikes.find(std::string(name_of(static_cast<StrikeKind>(i))));
+    if (found != style.strikes.end()) w.strikes[i] = found->second;
+  }
   return w;
 }
 
@@ -50,11 +54,8 @@ double launch_points(const Weights& weights, const Style& style, const Action& a
   return points;
 }
 
-double hit_points(const Weights& weights, const Style& style, StrikeKind kind, std::int32_t damage,
-                  bool knockdown) {
-  const auto found =
-      style.strikes.empty() ? style.strikes.end() : style.strikes.find(std::string(name_of(kind)));
-  const double liked = found == style.strikes.end() ? 1.0 : found->second;
+double hit_points(const Weights& weights, StrikeKind kind, std::int32_t damage, bool knockdown) {
+  const double liked = weights.strikes[static_cast<std::size_t>(kind)];
   return weights.fight * liked * damage / 1000.0 + (knockdown ? weights.knockdown : 0.0);
 }
 

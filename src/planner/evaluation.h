@@ -3,12 +3,15 @@
 // points, summed along a route in integer thousandths. docs/planning.md sets code beside equation.
 
 #include <algorithm>
+#include <array>
 
 #include "motion/action.h"
 #include "physics/body.h"
 #include "planner/style.h"
 
 namespace ringcraft {
+
+inline constexpr std::size_t kStrikeKinds = static_cast<std::size_t>(StrikeKind::knee) + 1;
 
 // Thousandths of a point, rounded to nearest.
 inline std::int32_t thousandths(double points) {
@@ -24,6 +27,7 @@ struct Weights {
   double caution = 1.5;                               // kappa_f
   double control = 1, rarity = 4, duration = 0.5, attack_bonus = 0;
   LeafValue leaf = LeafValue::weighted;
+  std::array<double, kStrikeKinds> strikes{1, 1, 1, 1, 1, 1, 1, 1, 1};  // on hits, by kind
 };
 
 // `quiet`: seconds since the last contact. Beyond boredom_after_s a fighter comes closer, dares
@@ -39,8 +43,7 @@ double location_rate(const Weights& weights, double distance, double cosine, dou
 double launch_points(const Weights& weights, const Style& style, const Action& action, double use);
 
 // F_fight of a landed blow, points; `damage` in thousandths.
-double hit_points(const Weights& weights, const Style& style, StrikeKind kind, std::int32_t damage,
-                  bool knockdown);
+double hit_points(const Weights& weights, StrikeKind kind, std::int32_t damage, bool knockdown);
 
 // F_fight of a strike that was evaded or blocked: by the damage that was prevented, thousandths.
 double defense_points(const Weights& weights, std::int32_t prevented);

@@ -10,13 +10,19 @@ constexpr double kDoubt = 3;                // sightings that are believed by ha
 
 }  // namespace
 
-Situation situation_of(float distance, Kind last) {
+Situation situation_of(float distance, Kind last, bool attacked) {
   const std::uint8_t band = distance < kNear ? 0 : distance < kFar ? 1 : 2;
-  return {band, static_cast<std::uint8_t>(last)};
+  return {band, static_cast<std::uint8_t>(last), attacked};
+}
+
+bool looks_like_attack(const Action& action, Tick age, double late_sight_s) {
+  if (action.feint) return age < action.feint->parted + ticks(late_sight_s);
+  return action.attacks() && age < action.strikes.back().active_end;
 }
 
 std::size_t Habits::index_of(Situation situation) {
-  return situation.band * kAfter + situation.after;
+  const std::size_t calm = situation.band * kAfter + situation.after;
+  return calm + (situation.attacked ? kBands * kAfter : 0);
 }
 
 void Habits::note(Situation situation, ActionId action) {
@@ -45,6 +51,20 @@ int Habits::total(Situation situation) const {
 
 double Habits::belief(int total) {
   return total / (total + kDoubt);
+}
+
+void Habits::note_begun(ActionId attack, bool feint) {
+  auto at = std::find_if(begun_.begin(), begun_.end(),
+                         [&](const Begun& one) { return one.attack == attack; });
+  if (at == begun_.end()) at = begun_.insert(at, {attack, 0, 0});
+  ++at->all;
+  at->feints += feint ? 1 : 0;
+}
+
+double Habits::feint_expected(ActionId attack) const {
+  const auto at = std::find_if(begun_.begin(), begun_.end(),
+                               [&](const Begun& one) { return one.attack == attack; });
+  return at == begun_.end() ? 0 : belief(at->all) * at->feints / at->all;
 }
 
 }  // namespace ringcraft

@@ -11,14 +11,19 @@
 
 namespace ringcraft {
 
-// How far apart the two stand and what the fighter did last.
+// How far apart the two stand, what the fighter did last, and whether it sees an attack coming.
 struct Situation {
   std::uint8_t band = 0;   // of the distance
   std::uint8_t after = 0;  // kind of the fighter's last action
+  bool attacked = false;
 };
 
 // `distance` of the roots, m.
-Situation situation_of(float distance, Kind last);
+Situation situation_of(float distance, Kind last, bool attacked);
+
+// Whether `action` at that age looks like an attack whose blows are not yet over, to one who sees
+// it `late_sight_s` late: an attack, or a feint that nobody can tell from one yet.
+bool looks_like_attack(const Action& action, Tick age, double late_sight_s);
 
 // Counts of one fighter. Constant inside a search.
 class Habits {
@@ -38,10 +43,21 @@ class Habits {
   // How much the counts of a situation are believed, 0 (never met) .. 1: n / (n + 3).
   static double belief(int total);
 
+  // What began like `attack` was one, or was a feint of it.
+  void note_begun(ActionId attack, bool feint);
+  // How far a motion that begins like `attack` is taken for a feint, 0 .. 1: the share that were
+  // feints, as far as it is believed.
+  double feint_expected(ActionId attack) const;
+
  private:
+  struct Begun {
+    ActionId attack;
+    int feints = 0, all = 0;
+  };
   static constexpr std::size_t kBands = 3, kAfter = 7;
   static std::size_t index_of(Situation situation);
-  std::array<std::vector<Seen>, kBands * kAfter> seen_;
+  std::array<std::vector<Seen>, 2 * kBands * kAfter> seen_;
+  std::vector<Begun> begun_;
 };
 
 }  // namespace ringcraft

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/strike_fit.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
 
@@ -41,6 +42,28 @@ std::array<Sphere, kPartCount> spheres_of(const BodyCapsules& capsules) {
     spheres[i] = {(c.a + c.b) * 0.5f, 0.5f * glm::distance(c.a, c.b) + c.radius};
   }
   return spheres;
+}
+
+// First part of each group; a group ends where the next one begins.
+constexpr std::array<std::size_t, kGroups + 1> kGroupBegin{
+    index(Part::pelvis),     index(Part::left_upper_arm), index(Part::right_upper_arm),
+    index(Part::left_thigh), index(Part::right_thigh),    kPartCount};
+
+std::array<Sphere, kGroups> groups_of(const std::array<Sphere, kPartCount>& spheres) {
+  std::array<Sphere, kGroups> groups;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    Box box{Vec3(1e9f), Vec3(-1e9f)};
+    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
+      box.low = glm::min(box.low, spheres[i].center - spheres[i].radius);
+      box.high = glm::max(box.high, spheres[i].center + spheres[i].radius);
+    }
+    groups[g].center = (box.low + box.high) * 0.5f;
+    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
+      const float far = glm::distance(groups[g].center, spheres[i].center) + spheres[i].radius;
+      groups[g].radius = std::max(groups[g].radius, far);
+    }
+  }
+  return groups;
 }
 
 std::array<float, kPartCount> travels_of(const BodyCapsules& before, const BodyCapsules& after) {
@@ -88,6 +111,7 @@ ActionTable action_table(const Action& action, const BodyModel& body) {
     table.bound.push_back(bound_of(table.capsules.back()));
     table.box.push_back(box_of(table.capsules.back()));
     table.spheres.push_back(spheres_of(table.capsules.back()));
+    table.groups.push_back(groups_of(table.spheres.back()));
     for (const Capsule& c : table.capsules.back()) {
       const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
       table.extent = std::max(table.extent, far);
@@ -218,10 +242,13 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   const StateMachine& machine = library_.machine();
   const Path* path = machine.path(from, to);
   if (path == nullptr || path->via.size() > kLongestPath) return std::nullopt;
+  const auto left_out = [&](ActionId over) { return is_left_out(library_.action(over)); };
+  if (std::any_of(path->via.begin(), path->via.end(), left_out)) return std::nullopt;
   const ActionTable& table = actions_[to.at()];
   NextAction next;
   next.to = to;
-  next.kind = table.action->kind;
+  // A feint stands among the attacks: as a step it would take a real one's place in every list.
+  next.kind = table.action->feint ? Kind::attack : table.action->kind;
   next.attacks = table.action->attacks();
   next.particular = table.action->defense && table.action->defense->particular();
   next.path = path->via;
@@ -301,17 +328,25 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   };
   const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
   Box reached{Vec3(1e9f), Vec3(-1e9f)};
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Sphere sphere{seen.to_outer(spheres_a[i].center), spheres_a[i].radius};
-    if (((excepted_a >> i) & 1u) != 0 || !touches_box(sphere, b.table->box_at(age_b))) continue;
-    own[own_count++] = {sphere, i};
-    reached.low = glm::min(reached.low, sphere.center - sphere.radius);
-    reached.high = glm::max(reached.high, sphere.center + sphere.radius);
+  const Box& box_b = b.table->box_at(age_b);
+  const auto &groups_a = a.table->groups_at(age_a), &groups_b = b.table->groups_at(age_b);
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    if (!touches_box({seen.to_outer(groups_a[g].center), groups_a[g].radius}, box_b)) continue;
+    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
+      const Sphere sphere{seen.to_outer(spheres_a[i].center), spheres_a[i].radius};
+      if (((excepted_a >> i) & 1u) != 0 || !touches_box(sphere, box_b)) continue;
+      own[own_count++] = {sphere, i};
+      reached.low = glm::min(reached.low, sphere.center - sphere.radius);
+      reached.high = glm::max(reached.high, sphere.center + sphere.radius);
+    }
   }
   if (own_count == 0) return 0;
-  for (std::size_t j = 0; j < kPartCount; ++j) {
-    if (((excepted_b >> j) & 1u) != 0 || !touches_box(spheres_b[j], reached)) continue;
-    their[their_count++] = {spheres_b[j], j};
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    if (!touches_box(groups_b[g], reached)) continue;
+    for (std::size_t j = kGroupBegin[g]; j < kGroupBegin[g + 1]; ++j) {
+      if (((excepted_b >> j) & 1u) != 0 || !touches_box(spheres_b[j], reached)) continue;
+      their[their_count++] = {spheres_b[j], j};
+    }
   }
   const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
   const BodyCapsules& capsules_b = b.table->capsules_at(age_b);

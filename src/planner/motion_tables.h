@@ -66,6 +66,9 @@ struct NextAction {
   const ActionTable* table = nullptr;  // of `to`
   std::vector<ActionId> path;          // actions played in full before it; empty for a direct edge
 };
+// The parts of a body as five groups of neighbours: trunk and head, arms, legs.
+inline constexpr std::size_t kGroups = 5;
+
 inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
 struct ActionTable {
@@ -73,6 +76,7 @@ struct ActionTable {
   Tick length = 0;
   std::vector<BodyCapsules> capsules;                   // action space, one a tick
   std::vector<std::array<Sphere, kPartCount>> spheres;  // around the capsules
+  std::vector<std::array<Sphere, kGroups>> groups;      // around the spheres of each group
   std::vector<std::array<float, kPartCount>> travel;    // m: how far each goes in the tick before
   std::vector<Placement> root;                          // scaled to the body
   std::vector<Box> box;                                 // around the capsules
@@ -90,6 +94,7 @@ struct ActionTable {
   const Placement& root_at(Tick age) const { return root[at(age)]; }
   const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
   const std::array<Sphere, kPartCount>& spheres_at(Tick age) const { return spheres[at(age)]; }
+  const std::array<Sphere, kGroups>& groups_at(Tick age) const { return groups[at(age)]; }
   const std::array<float, kPartCount>& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }

@@ -17,15 +17,25 @@ namespace {
 
 constexpr std::size_t kMostLines = 6;
 constexpr double kRarityKept = 0.9;     // phi <- 0.9 phi + 0.1 [launched]
-constexpr Tick kHorizonStep = 30;       // 0.25 s: grid of shorter horizons under a node limit
+constexpr Tick kHorizonStep = 30;       // 0.25 s
 constexpr Tick kFirstHorizon = 90;      // 0.75 s
-constexpr Tick kDeepeningStep = 60;     // 0.5 s
+constexpr Tick kGrowthStep = 60;        // 0.5 s
 constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
 constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured
 constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
 
 bool same_build(const BodySpec& a, const BodySpec& b) {
   return a.height == b.height && a.mass == b.mass && a.sex == b.sex && a.toughness == b.toughness;
+}
+
+// The attack that a feint begins like; none for anything else.
+ActionId attack_of(const MotionLibrary& library, const Action& feint) {
+  if (!feint.feint) return {};
+  for (std::size_t i = 0; i < library.actions().size(); ++i) {
+    const Action& action = library.actions()[i];
+    if (action.name == feint.feint->of && action.stance == feint.stance) return ActionId(i);
+  }
+  return {};
 }
 
 using Roots = std::vector<RootMove<Duel>>;
@@ -53,6 +63,7 @@ struct Planner::Inside {
   std::vector<std::vector<double>> work;  // J by contender and action; empty where it never tires
   std::vector<Condition> condition;       // by contender
   std::vector<Habits> habits;             // by contender
+  std::vector<ActionId> feigned;          // by action: the attack that a feint begins like
   SearchCost* cost = nullptr;
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
@@ -61,6 +72,7 @@ struct Planner::Inside {
                   Tick last_contact) const;
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
+  FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
   Searched search(const DuelSetup& setup, const FightState& state, const SoftChoice& preference,
                   const PlanLimits& limits) const;
@@ -101,6 +113,7 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
   use.assign(contenders.size(), std::vector<double>(library.actions().size(), 0.0));
   condition.resize(contenders.size());
   habits.resize(contenders.size());
+  for (const Action& action : library.actions()) feigned.push_back(attack_of(library, action));
   work.resize(contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) {
     if (contenders[i].style.fatigue <= 0) continue;
@@ -135,6 +148,25 @@ FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighte
     if (distance < least) least = distance, nearest = FighterId(i);
   }
   return nearest;
+}
+
+// The state as `fighter` takes it to be: an opponent's feint is the attack that it begins like,
+// until it has parted from it for `late_sight_s`; who learns is no longer taken in when most of
+// what began so were feints.
+FightState Planner::Inside::as_seen(const FightState& state, FighterId fighter,
+                                    FighterId opponent) const {
+  FightState seen = state;
+  Launch& launch = seen.fighters[opponent.at()].launch;
+  const ActionId attack = feigned[launch.action.at()];
+  const Style& style = contenders[fighter.at()].style;
+  if (!attack.valid() || !looks_like_attack(library.action(launch.action), state.now - launch.start,
+                                            style.late_sight_s)) {
+    return seen;
+  }
+  if (style.learning * habits[opponent.at()].feint_expected(attack) > 0.5) return seen;
+  launch.action = attack;
+  launch.end = std::max(state.now, launch.start + library.action(attack).length());
+  return seen;
 }
 
 SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet) const {
@@ -245,20 +277,14 @@ Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state
     }
     nodes_before = search.spent();
     // The next step, where what is left should pay for it.
-    const auto after = [&](Tick step) {
-      return std::pow(growth, static_cast<double>(step) / static_cast<double>(kDeepeningStep));
-    };
-    Tick step = limits.any() ? kHorizonStep : kDeepeningStep;
-    if (limit != 0) {
-      const double room = static_cast<double>(limit) / nodes;
-      while (step > 0 && after(step) > room) step -= kHorizonStep;
-    }
+    const double after =
+        std::pow(growth, static_cast<double>(kHorizonStep) / static_cast<double>(kGrowthStep));
+    if (limit != 0 && after > static_cast<double>(limit) / nodes) break;
     if (limits.seconds > 0) {
       const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
-      if (spent.count() * (1 + after(step)) > limits.seconds) break;
+      if (spent.count() * (1 + after) > limits.seconds) break;
     }
-    if (step <= 0) break;
-    horizon = std::min(wanted, horizon + step);
+    horizon = std::min(wanted, horizon + kHorizonStep);
   }
   return best.roots.empty() ? weighed_by_first_step(setup, root, preference) : std::move(best);
 }
@@ -320,6 +346,59 @@ std::vector<Event> foreseen_events(const DuelSetup& setup, const MotionLibrary& 
   return events;
 }
 
+// The terms along a line that was kept, where they add up to its score: the table may have known
+// the rest of it without the moves.
+std::optional<std::array<LineTerms, 2>> terms_of(const RootMove<Duel>& root, const DuelSetup& setup,
+                                                 const FightState& state, Tick horizon) {
+  if (!root.exact) return std::nullopt;
+  Duel game(setup, state.now + horizon);
+  DuelTerms terms{};
+  game.record_terms_into(&terms);
+  DuelNode node = game.step(Duel::root(setup, state), root.move).node;
+  for (const DuelMove& move : root.line) node = game.step(node, move).node;
+  if (node.gained != root.value) return std::nullopt;
+  std::array<LineTerms, 2> result;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto credited = [&](Term term) {
+      return terms[i][static_cast<std::size_t>(term)].credited;
+    };
+    result[i] = {credited(Term::location), credited(Term::hit), credited(Term::defense),
+                 credited(Term::control)};
+  }
+  return result;
+}
+
+// The first moves that rules struck off, in the order of the candidates.
+std::vector<StruckOff> struck_off(const Roots& roots, const DuelSetup& setup,
+                                  const MotionLibrary& library, const FightState& state,
+                                  Tick horizon) {
+  Duel game(setup, state.now + horizon);
+  const DuelNode root = Duel::root(setup, state);
+  std::vector<ActionId> turned;
+  std::vector<DuelMove> moves;
+  game.record_turned_into(&turned);
+  game.moves(root, moves);
+  game.record_turned_into(nullptr);
+  std::vector<StruckOff> all;
+  for (const DuelMove& move : moves) {
+    const bool kept = std::any_of(roots.begin(), roots.end(), [&](const RootMove<Duel>& one) {
+      return game.key(one.move) == game.key(move);
+    });
+    if (kept) continue;
+    const DuelCounts before = game.counts();
+    game.apply(root, move);
+    StruckOff one{library.action(move.action).name, {}};
+    for (const Pruned rule : reasons_between(before, game.counts())) {
+      one.rules.emplace_back(name_of(rule));
+    }
+    all.push_back(std::move(one));
+  }
+  for (const ActionId one : turned) {
+    all.push_back({library.action(one).name, {std::string(name_of(Pruned::back_turned))}});
+  }
+  return all;
+}
+
 Line line_of(const RootMove<Duel>& root, const DuelSetup& setup, const MotionLibrary& library) {
   Line line;
   line.score = root.value;
@@ -336,7 +415,7 @@ Line line_of(const RootMove<Duel>& root, const DuelSetup& setup, const MotionLib
 
 // The best first, those of which only an upper bound is known behind the others.
 void add_lines(DecisionRecord& record, const Roots& roots, const DuelSetup& setup,
-               const MotionLibrary& library) {
+               const MotionLibrary& library, const FightState& state) {
   std::vector<const RootMove<Duel>*> order;
   order.reserve(roots.size());
   for (const RootMove<Duel>& root : roots) order.push_back(&root);
@@ -348,6 +427,7 @@ void add_lines(DecisionRecord& record, const Roots& roots, const DuelSetup& setu
     if (record.lines.size() >= kMostLines && !chosen) continue;
     if (chosen) record.chosen = static_cast<std::int32_t>(record.lines.size());
     record.lines.push_back(line_of(*root, setup, library));
+    record.lines.back().terms = terms_of(*root, setup, state, record.horizon);
   }
 }
 
@@ -399,12 +479,13 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
   return plan(state, fighter, last_contact, {});
 }
 
-Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact,
+Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact,
                    const PlanLimits& limits) {
   const Inside& in = *inside_;
-  const FighterId opponent = in.opponent_of(state, fighter);
+  const FighterId opponent = in.opponent_of(truth, fighter);
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
-  if (!opponent.valid()) return resting(in.library, state, fighter, scale);
+  if (!opponent.valid()) return resting(in.library, truth, fighter, scale);
+  const FightState state = in.as_seen(truth, fighter, opponent);
   const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
   const Searched searched = in.search(setup, state, in.preference(state, fighter), limits);
   if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
@@ -412,7 +493,8 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
   plan.record = record_of(searched);
   plan.reproducible = !limits.any();
   const RootMove<Duel>& move = searched.roots.front();
-  add_lines(plan.record, searched.roots, setup, in.library);
+  add_lines(plan.record, searched.roots, setup, in.library, state);
+  plan.record.struck_off = struck_off(searched.roots, setup, in.library, state, searched.horizon);
   const FighterState& self = state.fighters[fighter.at()];
   if (move.move.forced) {
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
@@ -455,7 +537,8 @@ DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last
   const Inside& in = *inside_;
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
-  return expand_tree(in.setup(state, fighter, opponent, last_contact), state, horizon, most_nodes);
+  const FightState seen = in.as_seen(state, fighter, opponent);
+  return expand_tree(in.setup(seen, fighter, opponent, last_contact), seen, horizon, most_nodes);
 }
 
 SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last_contact,
@@ -463,8 +546,9 @@ SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last
   const Inside& in = *inside_;
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
-  const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
-  return tally_of(setup, state, horizon, trial, in.preference(state, fighter));
+  const FightState seen = in.as_seen(state, fighter, opponent);
+  const DuelSetup setup = in.setup(seen, fighter, opponent, last_contact);
+  return tally_of(setup, seen, horizon, trial, in.preference(state, fighter));
 }
 
 TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_contact,
@@ -473,7 +557,8 @@ TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_c
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
   const auto seed = derived_seed(in.seed, "shape", static_cast<std::uint64_t>(state.now));
-  return shape_of(in.setup(state, fighter, opponent, last_contact), state, horizon, dives, seed);
+  const FightState seen = in.as_seen(state, fighter, opponent);
+  return shape_of(in.setup(seen, fighter, opponent, last_contact), seen, horizon, dives, seed);
 }
 
 void Planner::measure(SearchCost* cost) {
@@ -497,7 +582,14 @@ void Planner::note_habit(const FightState& state, FighterId fighter, ActionId ac
   };
   const Kind last = in.library.action(state.fighters[fighter.at()].launch.action).kind;
   const float apart = glm::distance(root(fighter), root(other));
-  inside_->habits[fighter.at()].note(situation_of(apart, last), action);
+  const Launch& met = state.fighters[other.at()].launch;
+  const bool attacked = looks_like_attack(in.library.action(met.action), state.now - met.start,
+                                          in.contenders[fighter.at()].style.late_sight_s);
+  Habits& habits = inside_->habits[fighter.at()];
+  habits.note(situation_of(apart, last, attacked), action);
+  const ActionId feigned = in.feigned[action.at()];
+  const bool attacks = in.library.action(action).attacks();
+  if (attacks || feigned.valid()) habits.note_begun(feigned.valid() ? feigned : action, !attacks);
 }
 
 void Planner::set_condition(FighterId fighter, const Condition& condition) {

@@ -70,7 +70,8 @@ class Planner {
           std::uint64_t seed, std::shared_ptr<ImpactStore> store = nullptr);
   ~Planner();
 
-  // The decision of `fighter`, who acts now, against its opponent; the others are obstacles.
+  // The decision of `fighter`, who acts now, against its opponent; the others are obstacles. An
+  // opponent's feint that cannot be told from its attack yet is taken for the attack.
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
 
   // The same in a game's loop: looks ahead as far as the limits allow, in steps, and keeps the last

@@ -13,8 +13,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "planner/arena.h"
 #include "planner/search_cost.h"
 #include "planner/search_devices.h"
 
@@ -62,9 +65,13 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
   { game.apply(node, move) } -> std::same_as<Child<typename G::Node>>;
   { game.key(move) } -> std::same_as<std::uint32_t>;
 };
-// And, if it likes: context(node), what a move is an answer to, as a number; step(node, move) and
-// check(node, move, child), which together are apply(): the part of a fault that costs much is
-// added by check(), and is not asked for where the child cannot matter.
+// And, if it likes:
+// - context(node), what a move is an answer to, as a number;
+// - step(node, move) and check(node, move, child), which together are apply(): the part of a fault
+//   that costs much is added by check(), and is not asked for where the child cannot matter;
+// - resume(node, move, child): the horizon of an earlier search cut the child off; plays it on to
+//   this one's, as step() would, what was checked aside. False where it had to begin anew;
+// - counts() and count(counts): what it counts, so that what is kept is counted again.
 
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
 inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
@@ -148,7 +155,21 @@ std::int32_t minimax(G& game, const typename G::Node& node, SearchCounts& counts
   return best;
 }
 
-// Alpha-beta with its memory: table, killers, history. One object per task; nothing is shared.
+// What a game counts, where it does.
+template <class G>
+struct CountsOf {
+  struct Type {};
+};
+template <class G>
+requires requires(G& game) {
+  game.count(game.counts());
+}
+struct CountsOf<G> {
+  using Type = std::remove_cvref_t<decltype(std::declval<G&>().counts())>;
+};
+
+// Alpha-beta with its memory: table, killers, history, and the tree that was walked, so that no
+// longer horizon makes a step again. One object per task; nothing is shared.
 template <Game G>
 class Search {
  public:
@@ -161,12 +182,15 @@ class Search {
 
   // The value of `node` if it lies in (alpha, beta); else a bound on it (fail-soft). `line` is the
   // principal variation from the node on. Search again with a longer horizon keeps the memory of
-  // moves but not the values: say so by next_horizon().
+  // moves and steps but not the values: say so by next_horizon().
   std::int32_t run(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
                    std::vector<Move>& line) {
     aborted_ = false;
     counts_ = {};
-    return visit(game, node, alpha, beta, 0, line);
+    const std::pair<std::uint64_t, std::int32_t> root{game.hash(node), game.gained(node)};
+    if (root != root_) edges_.clear(), spots_.clear(), root_spot_ = nullptr;
+    root_ = root;
+    return visit(game, node, alpha, beta, 0, root_spot_, line);
   }
 
   void set_node_limit(std::uint64_t limit) { settings_.node_limit = limit; }
@@ -184,12 +208,37 @@ class Search {
     Bound bound = Bound::none;
   };
   static constexpr std::uint32_t kNoMove = std::numeric_limits<std::uint32_t>::max();
+
+  using Counts = typename CountsOf<G>::Type;
+  struct Spot;
+  // One way out of a node, as far as it was looked at.
+  struct Edge {
+    Move move;
+    Child<Node> child;       // its fault is step()'s
+    std::int32_t found = 0;  // what check() added
+    bool stepped = false, checked = false;
+    bool cut_off = false;  // by the horizon of `generation`
+    std::uint32_t generation = 0;
+    Counts by_step, by_check;
+    Spot* below = nullptr;  // of the child, where it was expanded
+  };
+  // A node that was expanded: its ways out, in the game's order.
+  struct Spot {
+    Edge* edges = nullptr;
+    std::size_t count = 0;
+    std::uint64_t hash = 0;
+    bool expanded = false;
+    Counts by_moves;
+  };
   // Buffers of one depth, kept between visits so that nothing is allocated in the inner loop.
   struct Level {
-    std::vector<Move> moves;
+    std::vector<std::uint32_t> order;
     std::vector<Move> line;
     std::array<std::uint32_t, 2> killers{kNoMove, kNoMove};
+    Spot spot;                // where the tree has no room
+    std::vector<Edge> edges;  // of it
   };
+  static constexpr std::size_t kMostSpots = 4096;
 
   Level& level(std::size_t depth) {
     while (levels_.size() <= depth) levels_.push_back(std::make_unique<Level>());
@@ -200,8 +249,101 @@ class Search {
     return settings_.table ? &table_[hash & (table_.size() - 1)] : nullptr;
   }
 
+  // The node's place in the tree, at `kept` from then on; with no room left a passing one.
+  Spot& spot_of(G& game, const Node& node, std::size_t depth, Spot*& kept) {
+    if (kept != nullptr) return *kept;
+    Spot* spot = &level(depth).spot;
+    if (spots_.size() < kMostSpots) {
+      kept = spot = spots_.take(1);
+    }
+    *spot = {};
+    spot->hash = settings_.table ? game.hash(node) : 0;
+    return *spot;
+  }
+
+  void expand(G& game, const Node& node, std::size_t depth, Spot& spot) {
+    if (spot.expanded) return count(game, spot.by_moves);
+    counted(game, spot.by_moves, [&] {
+      moves_.clear();
+      game.moves(node, moves_);
+    });
+    Level& here = level(depth);
+    spot.count = moves_.size();
+    if (&spot == &here.spot) {
+      here.edges.resize(std::max(here.edges.size(), moves_.size()));
+      spot.edges = here.edges.data();
+    } else {
+      spot.edges = edges_.take(moves_.size());
+    }
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      spot.edges[i] = {};
+      spot.edges[i].move = moves_[i];
+    }
+    spot.expanded = true;
+  }
+
+  // The child as this horizon knows it.
+  const Child<Node>& step(G& game, const Node& node, Edge& edge) {
+    const bool again = edge.cut_off && edge.generation != generation_;
+    if (edge.stepped && !again) {
+      count(game, edge.by_step);
+      return edge.child;
+    }
+    Counts more{};
+    counted(game, more, [&] {
+      if constexpr (requires { game.resume(node, edge.move, edge.child); }) {
+        if (edge.stepped && game.resume(node, edge.move, edge.child)) {
+          count(game, edge.by_step);
+          edge.checked = edge.checked && edge.found > 0;
+          return;
+        }
+      }
+      edge.checked = false, edge.found = 0, edge.by_check = {};
+      if constexpr (requires { game.step(node, edge.move); }) {
+        edge.child = game.step(node, edge.move);
+      } else {
+        edge.child = game.apply(node, edge.move);
+      }
+    });
+    edge.by_step = more;
+    edge.stepped = true;
+    edge.cut_off = game.terminal(edge.child.node);
+    edge.generation = generation_;
+    return edge.child;
+  }
+
+  // The whole fault of a child that was stepped to.
+  std::int32_t fault(G& game, const Node& node, Edge& edge) {
+    if constexpr (requires { game.check(node, edge.move, edge.child); }) {
+      if (edge.checked) {
+        count(game, edge.by_check);
+      } else {
+        const std::int32_t before = edge.child.fault;
+        counted(game, edge.by_check, [&] { game.check(node, edge.move, edge.child); });
+        edge.found = edge.child.fault - before;
+        edge.child.fault = before;
+        edge.checked = true;
+      }
+    }
+    return edge.child.fault + edge.found;
+  }
+
+  template <class Work>
+  static void counted(G& game, Counts& counts, const Work& work) {
+    if constexpr (requires { game.count(game.counts()); }) {
+      const Counts before = game.counts();
+      work();
+      counts = game.counts() - before;
+    } else {
+      work();
+    }
+  }
+  static void count(G& game, const Counts& counts) {
+    if constexpr (requires { game.count(counts); }) game.count(counts);
+  }
+
   std::int32_t visit(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
-                     std::size_t depth, std::vector<Move>& line) {
+                     std::size_t depth, Spot*& kept, std::vector<Move>& line) {
     line.clear();
     ++counts_.nodes;
     if (settings_.node_limit != 0 && counts_.nodes > settings_.node_limit) aborted_ = true;
@@ -214,10 +356,11 @@ class Search {
       return game.value(node);
     }
     const Actor actor = game.actor(node);
-    if (actor == Actor::forced) return visit_forced(game, node, alpha, beta, depth, line);
+    Spot& spot = spot_of(game, node, depth, kept);
+    if (actor == Actor::forced) return visit_forced(game, node, alpha, beta, depth, spot, line);
 
     const std::int32_t gained = game.gained(node);
-    const std::uint64_t hash = settings_.table ? game.hash(node) : 0;
+    const std::uint64_t hash = spot.hash;
     Entry* entry = entry_of(hash);
     std::uint32_t first = kNoMove;
     if (entry != nullptr && entry->bound != Bound::none && entry->hash == hash) {
@@ -230,7 +373,7 @@ class Search {
         return value;
       }
     }
-    const Found found = visit_children(game, node, actor, alpha, beta, depth, first, line);
+    const Found found = visit_children(game, node, actor, alpha, beta, depth, first, spot, line);
     if (!aborted_ && entry != nullptr) {
       const Bound bound = found.value <= alpha  ? Bound::upper
                           : found.value >= beta ? Bound::lower
@@ -242,15 +385,15 @@ class Search {
 
   // A forced node spends time, not a ply: the window passes through it.
   std::int32_t visit_forced(G& game, const Node& node, std::int32_t alpha, std::int32_t beta,
-                            std::size_t depth, std::vector<Move>& line) {
+                            std::size_t depth, Spot& spot, std::vector<Move>& line) {
     ++counts_.forced;
+    expand(game, node, depth, spot);
+    Edge& edge = spot.edges[0];
     Level& here = level(depth);
-    here.moves.clear();
-    game.moves(node, here.moves);
-    const Move move = here.moves.front();
+    const Child<Node>& child = step(game, node, edge);
     const std::int32_t value =
-        visit(game, game.apply(node, move).node, alpha, beta, depth + 1, here.line);
-    line.push_back(move);
+        visit(game, child.node, alpha, beta, depth + 1, edge.below, here.line);
+    line.push_back(edge.move);
     line.insert(line.end(), here.line.begin(), here.line.end());
     return value;
   }
@@ -261,39 +404,38 @@ class Search {
   };
 
   Found visit_children(G& game, const Node& node, Actor actor, std::int32_t alpha,
-                       std::int32_t beta, std::size_t depth, std::uint32_t first,
+                       std::int32_t beta, std::size_t depth, std::uint32_t first, Spot& spot,
                        std::vector<Move>& line) {
     Level& here = level(depth);
-    here.moves.clear();
-    game.moves(node, here.moves);
-    if (here.moves.empty()) {
+    expand(game, node, depth, spot);
+    if (spot.count == 0) {
       ++counts_.leaves;
       return {game.value(node), kNoMove};
     }
     const std::size_t context = context_of(game, node);
-    order(game, here, actor, first, context);
+    order(game, here, spot, actor, first, context);
     const bool max = actor == Actor::maximizer;
     Found found{max ? kWorst : kBest, kNoMove};
     bool any = false;
     LeastFault least_fault;
-    Node spare{};
-    std::size_t spare_index = 0;
+    Edge* spare = nullptr;
     // True when the window is closed and the rest need not be looked at.
-    const auto weigh = [&](const Node& child, const Move& move) {
+    const auto weigh = [&](Edge& edge) {
+      const Node& child = edge.child.node;
       std::int32_t value = 0;
       const bool scouts =
           settings_.null_window && found.best != kNoMove && beta - std::int64_t{1} > alpha;
+      const auto look = [&](std::int32_t low, std::int32_t high) {
+        value = visit(game, child, low, high, depth + 1, edge.below, here.line);
+      };
       if (scouts) {  // first only whether it is better than the best so far
-        value = max ? visit(game, child, alpha, alpha + 1, depth + 1, here.line)
-                    : visit(game, child, beta - 1, beta, depth + 1, here.line);
+        max ? look(alpha, alpha + 1) : look(beta - 1, beta);
       }
-      if (!scouts || (!aborted_ && value > alpha && value < beta)) {
-        value = visit(game, child, alpha, beta, depth + 1, here.line);
-      }
+      if (!scouts || (!aborted_ && value > alpha && value < beta)) look(alpha, beta);
       if (aborted_) return true;
       if (max ? value > found.value : value < found.value) {
-        found = {value, game.key(move)};
-        line.assign(1, move);
+        found = {value, game.key(edge.move)};
+        line.assign(1, edge.move);
         line.insert(line.end(), here.line.begin(), here.line.end());
       }
       if (max) {
@@ -303,9 +445,9 @@ class Search {
       }
       return alpha >= beta;
     };
-    for (std::size_t i = 0; i < here.moves.size(); ++i) {
-      const Move move = here.moves[i];
-      Child<Node> child = step(game, node, move);
+    for (const std::uint32_t i : here.order) {
+      Edge& edge = spot.edges[i];
+      const Child<Node>& child = step(game, node, edge);
       if (any && child.fault == 0 && game.terminal(child.node)) {
         // An end outside of the window, beside a sound child: whether it is struck off is the same.
         const std::int32_t value = game.value(child.node);
@@ -315,33 +457,31 @@ class Search {
           continue;
         }
       }
-      check(game, node, move, child);
-      if (child.fault > 0) {
-        if (least_fault.lowered_by(child.fault, game.key(move))) {
-          spare = child.node, spare_index = i;
-        }
+      if (const std::int32_t whole = fault(game, node, edge); whole > 0) {
+        if (least_fault.lowered_by(whole, game.key(edge.move))) spare = &edge;
         continue;
       }
       any = true;
-      if (weigh(child.node, move)) {
-        if (!aborted_) note_cutoff(here, actor, game.key(move), context);
+      if (weigh(edge)) {
+        if (!aborted_) note_cutoff(here, actor, game.key(edge.move), context);
         return found;
       }
     }
-    if (!any) weigh(spare, here.moves[spare_index]);
+    if (!any) weigh(*spare);
     return found;
   }
 
   // Table move, killers, then the game's own order, in which history moves a candidate up by at
   // most two places. Stable: the same moves in the same state always come in the same order.
-  void order(G& game, Level& here, Actor actor, std::uint32_t first, std::size_t context) {
+  void order(G& game, Level& here, const Spot& spot, Actor actor, std::uint32_t first,
+             std::size_t context) {
     const CostSpan span(settings_.cost, CostPart::ordering);
     std::vector<Rank>& ranks = ranks_;
     ranks.clear();
     const auto& history = history_[actor == Actor::maximizer ? 0 : 1];
     const std::uint64_t most = history_most_[actor == Actor::maximizer ? 0 : 1];
-    for (std::size_t i = 0; i < here.moves.size(); ++i) {
-      const std::uint32_t key = game.key(here.moves[i]);
+    for (std::size_t i = 0; i < spot.count; ++i) {
+      const std::uint32_t key = game.key(spot.edges[i].move);
       std::int64_t place = static_cast<std::int64_t>(settings_.own_order ? i : key) * 1024;
       if (settings_.history && key < history.size()) {
         place -= static_cast<std::int64_t>(2048 * history[key] / (most + 1));
@@ -351,14 +491,15 @@ class Search {
       }
       if (settings_.killers && (key == here.killers[0] || key == here.killers[1])) place -= 1 << 20;
       if (key == first) place -= 1 << 21;
-      ranks.push_back({place, here.moves[i]});
+      ranks.push_back({place, static_cast<std::uint32_t>(i)});
     }
     for (std::size_t i = 1; i < ranks.size(); ++i) {  // insertion: few, and stable
       for (std::size_t j = i; j > 0 && ranks[j].place < ranks[j - 1].place; --j) {
         std::swap(ranks[j], ranks[j - 1]);
       }
     }
-    for (std::size_t i = 0; i < ranks.size(); ++i) here.moves[i] = ranks[i].move;
+    here.order.clear();
+    for (const Rank& rank : ranks) here.order.push_back(rank.index);
   }
 
   void note_cutoff(Level& here, Actor actor, std::uint32_t key, std::size_t context) {
@@ -369,17 +510,6 @@ class Search {
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
-  }
-
-  static Child<Node> step(G& game, const Node& node, const Move& move) {
-    if constexpr (requires { game.step(node, move); }) {
-      return game.step(node, move);
-    } else {
-      return game.apply(node, move);
-    }
-  }
-  static void check(G& game, const Node& node, const Move& move, Child<Node>& child) {
-    if constexpr (requires { game.check(node, move, child); }) game.check(node, move, child);
   }
 
   // What a move answers, where the game says so: the same number for the same thing.
@@ -395,7 +525,7 @@ class Search {
 
   struct Rank {
     std::int64_t place;
-    Move move;
+    std::uint32_t index;
   };
 
   SearchSettings settings_;
@@ -409,6 +539,11 @@ class Search {
   std::vector<std::array<std::uint32_t, 2>> answers_ =
       std::vector<std::array<std::uint32_t, 2>>(kContexts, {kNoMove, kNoMove});
   std::vector<Rank> ranks_;  // of order()
+  std::vector<Move> moves_;  // of expand()
+  Arena<Edge> edges_;        // the tree that was walked
+  Arena<Spot> spots_;
+  Spot* root_spot_ = nullptr;
+  std::pair<std::uint64_t, std::int32_t> root_{};  // hash and gain of its root
 };
 
 }  // namespace ringcraft

@@ -11,7 +11,7 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kFirstHorizon = 90;   // 0.75 s
-constexpr Tick kDeepeningStep = 60;  // 0.5 s
+constexpr Tick kDeepeningStep = 30;  // 0.25 s
 
 // The children that count: those without a fault, else the one with the least.
 std::vector<DuelNode> children_of(Duel& game, const DuelNode& node) {

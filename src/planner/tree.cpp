@@ -13,13 +13,6 @@ constexpr std::uint64_t kMostPerNode = 400'000;     // nodes of a search for one
 constexpr std::uint64_t kMostSearched = 6'000'000;  // of all of them
 constexpr int kTableBits = 18;
 
-std::vector<Pruned> reasons_between(const DuelCounts& before, const DuelCounts& after) {
-  std::vector<Pruned> reasons;
-  if (after.unanswered_hit > before.unanswered_hit) reasons.push_back(Pruned::unanswered_hit);
-  if (after.penetration > before.penetration) reasons.push_back(Pruned::penetration);
-  return reasons;
-}
-
 class Expansion {
  public:
   Expansion(const DuelSetup& setup, const FightState& state, Tick horizon, std::size_t most)
@@ -243,6 +236,13 @@ class Expansion {
 };
 
 }  // namespace
+
+std::vector<Pruned> reasons_between(const DuelCounts& before, const DuelCounts& after) {
+  std::vector<Pruned> reasons;
+  if (after.unanswered_hit > before.unanswered_hit) reasons.push_back(Pruned::unanswered_hit);
+  if (after.penetration > before.penetration) reasons.push_back(Pruned::penetration);
+  return reasons;
+}
 
 std::string_view name_of(Pruned reason) {
   switch (reason) {

@@ -17,6 +17,9 @@ namespace ringcraft {
 enum class Pruned : std::uint8_t { unanswered_hit, back_turned, penetration };
 std::string_view name_of(Pruned reason);
 
+// The rules that counted something in between.
+std::vector<Pruned> reasons_between(const DuelCounts& before, const DuelCounts& after);
+
 struct TreePruned {
   std::string action;
   std::vector<Pruned> reasons;

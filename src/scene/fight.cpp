@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "motion/both_stances.h"
+#include "motion/feints.h"
 #include "motion/strike_fit.h"
 #include "scene/bout.h"
+#include "scene/fitted_library.h"
 
 namespace ringcraft {
 
@@ -51,6 +53,7 @@ float opponents_height(const SceneFile& scene, const SceneFighter& fighter) {
 
 MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
   const bool both = scene.needs_both_stances();
+  library = with_feints(std::move(library), scene.feints);
   const auto in_stances = [&](const MotionLibrary& one) {
     return both ? both_stances(one, scene.stance_switches) : one;
   };
@@ -60,7 +63,7 @@ MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
     const float ratio = opponents_height(scene, fighter);
     auto& fit = fits[ratio];
     if (fit == nullptr && !as_tall(ratio)) {
-      fit = std::make_shared<const MotionLibrary>(in_stances(fitted(library, ratio)));
+      fit = std::make_shared<const MotionLibrary>(in_stances(fitted_library(library, ratio)));
     }
     of_fighter.push_back(fit);
   }

@@ -37,9 +37,10 @@ struct FightRecord {
   bool interrupted = false;
 };
 
-// The library as the scene's fighters need it: with both stances where one of them is a southpaw or
-// may switch; with clips of their own for those whose opponents are taller or shorter; else as it
-// is. What a bout, its timeline and its files are given.
+// The library as the scene's fighters need it: with the feints that the scene names; with both
+// stances where one of them is a southpaw or may switch; with clips of their own for those whose
+// opponents are taller or shorter; else as it is. What a bout, its timeline and its files are
+// given.
 MotionLibrary library_for(const SceneFile& scene, MotionLibrary library);
 
 FightRecord simulate_fight(const MotionLibrary& library, const SceneFile& scene,

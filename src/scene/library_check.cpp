@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "motion/quality.h"
+#include "motion/strike_fit.h"
 #include "physics/body.h"
 #include "physics/penetration.h"
 #include "scene/library_check_gates.h"
@@ -125,6 +126,8 @@ bool has_response(const MotionLibrary& library, ResponseKind kind, int steps) {
   });
 }
 
+}  // namespace
+
 ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   const Skeleton& skeleton = body.skeleton;
   const Placement& end = action.clip.root_at(action.length());
@@ -132,6 +135,7 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   m.name = action.name;
   m.kind = action.kind;
   m.authored = is_authored(action);
+  m.left_out = is_left_out(action);
   m.seconds = seconds(action.length());
   m.peak_speed_mps = peak_speed(skeleton, action);
   if (action.attacks()) m.strike_begin_s = seconds(action.strikes.front().active_begin);
@@ -145,8 +149,6 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   m.source = action.source;
   return m;
 }
-
-}  // namespace
 
 std::vector<ActionMeasures> measure(const MotionLibrary& library) {
   BodySpec spec;
@@ -176,6 +178,7 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
     }
   }
   for (const ActionMeasures& m : check.actions) {
+    if (m.left_out) continue;
     if (m.limit_violations > 0) {
       check.faults.push_back(fmt::format("{}: joints beyond their range in {} frames, {}", m.name,
                                          m.limit_violations, m.worst_joint));

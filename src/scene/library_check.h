@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motion/library.h"
+#include "physics/body.h"
 #include "scene/library_check_seams.h"
 #include "scene/library_check_strikes.h"
 #include "scene/library_check_yardstick.h"
@@ -18,6 +19,7 @@ struct ActionMeasures {
   std::string name;
   Kind kind = Kind::idle;
   bool authored = false;
+  bool left_out = false;  // not thrown at this opponent: no gate and no fault counts it
   double seconds = 0;
   double peak_speed_mps = 0;  // of the striking joint relative to the hips; 0 without a strike
   double strike_begin_s = 0;  // first tick at which it can hit
@@ -35,6 +37,8 @@ struct ActionMeasures {
   std::size_t leads_to = 0;  // direct edges
   std::string source;
 };
+
+ActionMeasures measure_action(const BodyModel& body, const Action& action);
 
 // The library's actions in their order, then its changes of stance.
 std::vector<ActionMeasures> measure(const MotionLibrary& library);

@@ -38,6 +38,7 @@ void add_body_gates(LibraryCheck& check) {
   double beyond = 0, excess = 0, skate = 0, slid = 0, all = 0, deepest = 0;
   std::vector<double> depths;
   for (const ActionMeasures& m : check.actions) {
+    if (m.left_out) continue;
     beyond += static_cast<double>(m.limit_violations);
     excess = std::max(excess, m.worst_limit_deg);
     skate = std::max(skate, m.foot_skate);

@@ -36,8 +36,9 @@ struct SceneFile {
   std::filesystem::path library;  // folder of the motion library
   float ring = 6.0f;              // side of the square ring, m
   std::vector<SceneFighter> fighters;
-  PlanSettings planner;          // ring_half_m is set from `ring`
-  bool stance_switches = false;  // fighters may change their stance
+  PlanSettings planner;             // ring_half_m is set from `ring`
+  bool stance_switches = false;     // fighters may change their stance
+  std::vector<std::string> feints;  // attacks that fighters may feign (motion/feints.h)
 
   // Hash of all the file says but the seed; the files it names count by their names.
   std::uint64_t settings = 0;

@@ -54,6 +54,7 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
                 {},
                 1,
                 {},
+                {},
                 0,
                 false,
                 false,
@@ -79,8 +80,7 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
     pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
   }
   if (actor.share < 1) {
-    pose = partial_pose(actor.body.skeleton, rest_of(own, actor.launch, actor.body.scale), pose,
-                        actor.share);
+    pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.share);
   }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
                             tick);
@@ -100,6 +100,7 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.launch = launch;
   actor.pace = pace;
   actor.share = share;
+  if (share < 1) actor.rest = rest_of(*actor.library, launch, actor.body.scale);
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {
     actor.variation = Variation(derived_seed(static_cast<std::uint64_t>(launch.start), "launch",
@@ -112,7 +113,7 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
     Launch& last = actor.track.segments.back().launch;
     last.end = std::min(last.end, launch.start);
   }
-  actor.track.segments.push_back({launch, action.name, action.kind});
+  actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
   actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
   if (actor.simulated.empty()) {
@@ -124,6 +125,7 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
   Actor& actor = actors_[fighter.at()];
   actor.launch.placement.x += offset.x;
   actor.launch.placement.z += offset.z;
+  actor.rest.hips += Vec3{offset.x, 0, offset.z};
   actor.track.segments.back().launch.placement = actor.launch.placement;
 }
 

@@ -68,6 +68,7 @@ class Stage {
     Pace pace;                    // of this launch
     Variation variation;          // of this launch
     float share = 1;              // of the clip that is shown
+    Pose rest;                    // what a share below 1 is measured from, world
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;

@@ -33,6 +33,15 @@ std::pair<double, std::string> most_used(const FighterTrack& track) {
   return {all == 0 ? 0 : static_cast<double>(most) / all, action};
 }
 
+// Whether a defense was chosen while the feint lasted.
+bool took_in(const Segment& feint, const FighterTrack& other) {
+  const auto& all = other.segments;
+  return std::any_of(all.begin(), all.end(), [&](const Segment& segment) {
+    return segment.kind == Kind::defense && segment.launch.start > feint.launch.start &&
+           segment.launch.start < feint.launch.end;
+  });
+}
+
 void count_segments(const Timeline& timeline, BoutTally& tally) {
   for (std::size_t i = 0; i < 2; ++i) {
     SideTally& own = tally.side[i];
@@ -41,7 +50,9 @@ void count_segments(const Timeline& timeline, BoutTally& tally) {
       own.attacks += attack ? 1 : 0;
       tally.side[1 - i].faced += attack ? 1 : 0;
       own.defenses += segment.kind == Kind::defense ? 1 : 0;
-      own.steps += segment.kind == Kind::transition ? 1 : 0;
+      own.steps += segment.kind == Kind::transition && !segment.feint ? 1 : 0;
+      own.feints += segment.feint ? 1 : 0;
+      own.taken_in += segment.feint && took_in(segment, timeline.tracks[1 - i]) ? 1 : 0;
       own.chosen += segment.launch.forced ? 0 : 1;
     }
     const auto [share, action] = most_used(timeline.tracks[i]);
@@ -124,6 +135,8 @@ std::vector<StudyCell> row_of(const std::string& name, const Totals& sum) {
     row.emplace_back(over(static_cast<double>(side.steps), minutes));
     row.emplace_back(over(static_cast<double>(side.defenses), static_cast<double>(side.faced)));
     row.emplace_back(over(side.ahead_s, static_cast<double>(side.decisions)));
+    row.emplace_back(over(static_cast<double>(side.feints), minutes));
+    row.emplace_back(over(static_cast<double>(side.taken_in), static_cast<double>(side.feints)));
   }
   row.emplace_back(over(sum.distance, sum.ticks));
   row.emplace_back(over(sum.far, sum.ticks));
@@ -147,6 +160,7 @@ SideTally& SideTally::operator+=(const SideTally& o) {
   steps += o.steps, faced += o.faced, knockdowns += o.knockdowns, chosen += o.chosen;
   damage += o.damage;
   decisions += o.decisions, ahead_s += o.ahead_s;
+  feints += o.feints, taken_in += o.taken_in;
   return *this;
 }
 
@@ -276,7 +290,8 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
                          "lead_points", "lead_low", "lead_high"};
   for (const char* side : {"a", "b"}) {
     for (const char* what : {"hits_per_min", "damage_per_min", "landed_share", "knockdowns_per_min",
-                             "steps_per_min", "defenses_per_attack_faced", "looked_ahead_s"}) {
+                             "steps_per_min", "defenses_per_attack_faced", "looked_ahead_s",
+                             "feints_per_min", "feints_answered_share"}) {
       study.table.columns.push_back(fmt::format("{}_{}", side, what));
     }
   }

@@ -24,7 +24,9 @@ struct SideTally {
   std::int64_t attacks = 0, strikes = 0, hits = 0, defenses = 0, steps = 0, faced = 0;
   std::int64_t knockdowns = 0;  // that it made
   std::int64_t chosen = 0;      // actions it chose
-  double damage = 0;            // that it did, points
+  std::int64_t feints = 0;
+  std::int64_t taken_in = 0;  // feints that the other answered with a defense before their end
+  double damage = 0;          // that it did, points
   std::int64_t decisions = 0;
   double ahead_s =
       0;  // looked ahead, s, summed over its decisions: less than t_f under a node limit

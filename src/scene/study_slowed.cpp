@@ -32,17 +32,7 @@ Action slowed(const Action& action, float factor) {
   }
   if (times.size() < 2) return action;
   Action out = action;
-  out.clip.frames.clear();
-  out.clip.root.clear();
-  out.clip.contacts.clear();
-  for (const float t : times) {
-    const auto tick = static_cast<Tick>(t);
-    const float share = t - static_cast<float>(tick);
-    out.clip.frames.push_back(mix(action.clip.at(tick), action.clip.at(tick + 1), share));
-    out.clip.root.push_back(mix(action.clip.root_at(tick), action.clip.root_at(tick + 1), share));
-    out.clip.contacts.push_back(action.clip.contacts_at(share < 0.5f ? tick : tick + 1));
-  }
-  unroll_rotations(out.clip);
+  out.clip = retimed(action.clip, times);
   const auto shown = [&](Tick source) {  // the first shown tick at or after a source tick
     const auto at = std::lower_bound(times.begin(), times.end(), static_cast<float>(source));
     return static_cast<Tick>(at - times.begin());

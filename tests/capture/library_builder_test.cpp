@@ -141,7 +141,11 @@ TEST_F(Kickboxing, CapturedStraightsReachTheOpponentWhileTheyAreActive) {
           farthest = t;
       const Vec3 reach = from_hips(action, strike.joint, farthest);
       EXPECT_GT(reach.z, 0.6f) << action.name;
-      EXPECT_LT(std::abs(reach.x), 0.12f * reach.z) << action.name;
+      // What names an aim is led to it (StrikeFit.CapturedBlowsAreLedToTheirAims), wherever the
+      // hips of the captured crouch are.
+      if (strike.aim.empty()) {
+        EXPECT_LT(std::abs(reach.x), 0.12f * reach.z) << action.name;
+      }
       EXPECT_LT(farthest, strike.active_end) << action.name;
       EXPECT_LT(from_hips(action, strike.joint, 0).z, 0.75f * reach.z) << action.name;
     }

@@ -56,6 +56,21 @@ TEST(Events, AHitSaysWhatPhysicsSaid) {
   EXPECT_EQ(hit["response"], "absorb");
 }
 
+TEST(Events, ADecisionSaysWhatALineIsWorthByTermAndWhatWasStruckOff) {
+  Event event = sample::events()[0];
+  event.decision.lines[0].terms = {{{-500, 4750, 0, -250}, {0, 250, 0, 0}}};
+  event.decision.struck_off = {{"jab", {"unanswered_hit", "penetration"}}};
+  const json decision = event_json(event, true);
+  const json& terms = decision["lines"][0]["terms"];
+  ASSERT_EQ(terms.size(), 2u);
+  EXPECT_EQ(terms[0],
+            json({{"location", -0.5}, {"hit", 4.75}, {"defense", 0.0}, {"control", -0.25}}));
+  EXPECT_EQ(terms[1]["hit"], 0.25);
+  EXPECT_FALSE(decision["lines"][1].contains("terms"));
+  EXPECT_EQ(decision["struck_off"],
+            json::array({{{"action", "jab"}, {"rules", {"unanswered_hit", "penetration"}}}}));
+}
+
 TEST(Events, ADecisionHoldsItsLinesWithActorsScoresAndForcedMoves) {
   const json decision = event_json(sample::events()[0], true);
   ASSERT_EQ(decision["lines"].size(), 2u);

@@ -59,8 +59,8 @@ inline Event event(Tick tick, EventType type, int who, int whom, const std::stri
 
 inline std::vector<Event> events() {
   Event decision = event(36, EventType::decision, 0, 1, "jab");
-  decision.decision.lines = {{{"jab", "*absorb_back", "cross"}, {0, 1, 0}, 4250},
-                             {{"cross", "duck"}, {0, 1}, -1500}};
+  decision.decision.lines = {{{"jab", "*absorb_back", "cross"}, {0, 1, 0}, 4250, false, {}},
+                             {{"cross", "duck"}, {0, 1}, -1500, false, {}}};
   decision.decision.nodes = 120;
   decision.decision.leaves = 64;
   decision.decision.forced_nodes = 5;

@@ -187,6 +187,7 @@ TEST_F(Shown, NoHitExplodes) {
     for (const Pose& pose : poses) {
       EXPECT_LT(glm::distance(pose.hips, fighting.hips), 6.0f) << i;
       EXPECT_LT(pose.hips.y, 2.0f) << i;
+      EXPECT_TRUE(limit_violations(body, pose, radians(15)).empty()) << i;
     }
     EXPECT_LT(fastest_joint(poses), 45) << i;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "motion/feints.h"
 #include "planner/duel_fixture.h"
 #include "planner/habits.h"
 #include "planner/impact_store.h"
@@ -123,16 +124,29 @@ TEST_F(ConditionTest, APlanSparesTheHurtArm) {
 
 TEST(HabitsTest, CountsStandByFrequencyAndSituation) {
   Habits habits;
-  const Situation near = situation_of(0.9f, Kind::idle), far = situation_of(2.0f, Kind::idle);
+  const Situation near = situation_of(0.9f, Kind::idle, false),
+                  far = situation_of(2.0f, Kind::idle, false);
   for (const int action : {3, 5, 5, 2}) habits.note(near, ActionId(action));
   ASSERT_EQ(habits.seen(near).size(), 3u);
   EXPECT_EQ(habits.seen(near)[0].action, ActionId(5));
   EXPECT_EQ(habits.seen(near)[1].action, ActionId(2));  // equal counts: the lower index
   EXPECT_EQ(habits.total(near), 4);
   EXPECT_EQ(habits.total(far), 0);
-  EXPECT_EQ(habits.total(situation_of(0.9f, Kind::attack)), 0);
+  EXPECT_EQ(habits.total(situation_of(0.9f, Kind::attack, false)), 0);
+  EXPECT_EQ(habits.total(situation_of(0.9f, Kind::idle, true)), 0);
   EXPECT_EQ(Habits::belief(0), 0);
   EXPECT_LT(Habits::belief(3), Habits::belief(30));
+}
+
+TEST(HabitsTest, FeintsAreExpectedOfWhoFeints) {
+  Habits habits;
+  const ActionId jab(3), cross(4);
+  EXPECT_EQ(habits.feint_expected(jab), 0);
+  for (int i = 0; i < 20; ++i) habits.note_begun(jab, true);
+  EXPECT_GT(habits.feint_expected(jab), 0.8);
+  EXPECT_EQ(habits.feint_expected(cross), 0);
+  for (int i = 0; i < 60; ++i) habits.note_begun(jab, false);
+  EXPECT_LT(habits.feint_expected(jab), 0.3);
 }
 
 // Many sightings of one attack: the tree expects it, and nothing else.
@@ -152,7 +166,7 @@ TEST_F(ConditionTest, TheTreeExpectsWhatWasSeen) {
   setup_.learning = 1;
   game.moves(node, expected);
   EXPECT_EQ(expected.size(), usual.size());  // nothing was seen
-  for (int i = 0; i < 100; ++i) habits.note(situation_of(0.95f, Kind::idle), worst);
+  for (int i = 0; i < 100; ++i) habits.note(situation_of(0.95f, Kind::idle, false), worst);
   game.moves(node, expected);
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_EQ(expected.front().action, worst);
@@ -197,6 +211,41 @@ TEST_F(ConditionTest, OnlyWhoLearnsPlansOtherwise) {
   }
   EXPECT_GT(student_changed, 0);
   EXPECT_EQ(other_changed, 0);
+}
+
+// A feint is taken for its attack until it has parted from it for as long as sight is late, unless
+// he who learns has seen through it.
+TEST_F(ConditionTest, AFeintIsTakenForItsAttack) {
+  const std::vector<std::string> names{"hook"};
+  static const MotionLibrary kWith = with_feints(library(), names);
+  const ActionId hook = kWith.find("hook"), feint = kWith.find("hook_feint");
+  Style style;
+  style.horizon_s = 0.6;
+  style.temperature = 0;
+  style.learning = 1;
+  PlanSettings settings;
+  settings.node_limit = 300;
+  const auto store = std::make_shared<ImpactStore>();
+  Planner planner(kWith, contenders(2, style), settings, 5, store);
+  const Tick seen_until = kWith.action(feint).feint->parted + ticks(style.late_sight_s);
+  const auto in_flight = [&](ActionId action, Tick age) {
+    FightState state = facing(0.8f);
+    Launch& launch = state.fighters[1].launch;
+    launch.action = action;
+    launch.start = -age;
+    launch.end = launch.start + kWith.action(action).length();
+    return state;
+  };
+  const auto score = [&](ActionId action, Tick age) {
+    return planner.plan(in_flight(action, age), FighterId(0), 0).record.lines.front().score;
+  };
+  ASSERT_LT(seen_until, kWith.action(feint).length());
+  EXPECT_EQ(score(feint, seen_until - 1), score(hook, seen_until - 1));
+  EXPECT_NE(score(feint, seen_until), score(hook, seen_until));
+  EXPECT_NE(score(feint, 6), score(kWith.find("idle"), 6));
+  EXPECT_EQ(score(feint, 6), score(hook, 6));
+  for (int i = 0; i < 20; ++i) planner.note_habit(facing(0.8f), FighterId(1), feint);
+  EXPECT_NE(score(feint, 6), score(hook, 6));
 }
 
 }  // namespace

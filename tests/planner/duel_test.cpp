@@ -84,6 +84,33 @@ TEST_F(DuelTest, ContactsAgreeWithThoseOfTheWorld) {
   EXPECT_GT(met, 50);
 }
 
+TEST_F(DuelTest, AKeptTreeIsWhatASearchOfTheLongerHorizonWalksAnew) {
+  Style style;
+  style.candidates = 4;
+  set_style(style);
+  setup_.settings.prune = {};
+  SearchSettings settings;  // nothing that orders moves by what was seen at a shorter horizon
+  settings.table = settings.killers = settings.history = false;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const DuelNode root = Duel::root(setup_, random_state(seed));
+    Search<Duel> kept(settings);
+    for (Tick horizon = 30; horizon <= 150; horizon += 20) {
+      Search<Duel> anew(settings);
+      Duel game(setup_, horizon), other(setup_, horizon);
+      std::vector<DuelMove> line;
+      EXPECT_EQ(kept.run(game, root, kWorst, kBest, line),
+                anew.run(other, root, kWorst, kBest, line))
+          << seed << " " << horizon;
+      kept.next_horizon();
+      EXPECT_EQ(kept.counts().nodes, anew.counts().nodes) << seed << " " << horizon;
+      EXPECT_EQ(game.counts().unanswered_hit, other.counts().unanswered_hit);
+      EXPECT_EQ(game.counts().back_turned, other.counts().back_turned);
+      EXPECT_EQ(game.counts().penetration, other.counts().penetration);
+      EXPECT_EQ(game.counts().candidates, other.counts().candidates);
+    }
+  }
+}
+
 TEST_F(DuelTest, AlphaBetaIsMinimaxOnRealFightsWithPruningOffAndOn) {
   Style style;
   style.candidates = 4;
@@ -267,8 +294,8 @@ TEST_F(DuelTest, HitIsCreditedInFullToTheAttackerBySide) {
   const DuelNode mine =
       struck(game, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
   ASSERT_EQ(events.size(), 1u);
-  const double won = hit_points(setup_.side[0].weights, style, StrikeKind::front_kick,
-                                events[0].answer.damage, false);
+  const double won =
+      hit_points(setup_.side[0].weights, StrikeKind::front_kick, events[0].answer.damage, false);
   EXPECT_EQ(mine.gained, thousandths(won));
   events.clear();
   DuelNode second = root;

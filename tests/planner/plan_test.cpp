@@ -151,6 +151,49 @@ TEST_F(PlanTest, LinesComeBestFirstAndNameActors) {
   EXPECT_GT(plan.record.nodes, plan.record.leaves);
 }
 
+TEST_F(PlanTest, TermsOfALineAddUpToItsScore) {
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  int lines = 0, with_terms = 0;
+  bool location = false, hit = false, control = false;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const DecisionRecord record = planner.plan(random_state(seed), FighterId(0), 0).record;
+    for (const Line& line : record.lines) {
+      lines += line.at_most ? 0 : 1;
+      if (!line.terms) continue;
+      ++with_terms;
+      std::int32_t sum = 0;
+      for (const LineTerms& of : *line.terms) {
+        sum += of.location + of.hit + of.defense + of.control;
+        location |= of.location != 0, hit |= of.hit != 0, control |= of.control != 0;
+      }
+      EXPECT_EQ(sum, line.score);
+      EXPECT_FALSE(line.at_most);
+    }
+  }
+  EXPECT_GT(with_terms, lines / 2);
+  EXPECT_TRUE(location && hit && control);
+}
+
+TEST_F(PlanTest, FirstMovesThatWereStruckOffAreNamedWithTheirRules) {
+  Style style = quick();
+  style.temperature = 0;
+  Planner planner(library(), contenders(2, style), {}, 3);
+  // An attack of the opponent is under way, old enough to be seen: not to defend is struck off.
+  FightState state = facing(0.7f);
+  state.fighters[1].launch = launch("cross", -31, {0, 0.35f, kPi});
+  const DecisionRecord record = planner.plan(state, FighterId(0), 0).record;
+  ASSERT_FALSE(record.struck_off.empty());
+  for (const StruckOff& one : record.struck_off) {
+    EXPECT_FALSE(one.rules.empty()) << one.action;
+    EXPECT_TRUE(library().find(one.action).valid());
+    for (const Line& line : record.lines) EXPECT_NE(line.actions.front(), one.action);
+  }
+  PlanSettings nothing;
+  nothing.prune.unanswered_hit = nothing.prune.back_turned = nothing.prune.penetration = false;
+  Planner kept(library(), contenders(2, style), nothing, 3);
+  EXPECT_TRUE(kept.plan(state, FighterId(0), 0).record.struck_off.empty());
+}
+
 TEST_F(PlanTest, NodeLimitShortensTheHorizonButAlwaysAnswers) {
   Style style = quick();
   style.horizon_s = 2;

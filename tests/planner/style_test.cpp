@@ -115,8 +115,8 @@ TEST(EvaluationTest, HitsCountByDamageKindAndKnockdown) {
   Style style;
   style.strikes["hook"] = 2;
   const Weights weights = weights_at(style, 0);
-  EXPECT_DOUBLE_EQ(hit_points(weights, style, StrikeKind::straight, 3000, false), 3);
-  EXPECT_DOUBLE_EQ(hit_points(weights, style, StrikeKind::hook, 3000, true), 12);
+  EXPECT_DOUBLE_EQ(hit_points(weights, StrikeKind::straight, 3000, false), 3);
+  EXPECT_DOUBLE_EQ(hit_points(weights, StrikeKind::hook, 3000, true), 12);
   EXPECT_DOUBLE_EQ(defense_points(weights, 5000), 1.5);
   EXPECT_EQ(defense_points(weights, -5000), 0);
   EXPECT_EQ(thousandths(1.2345), 1235);

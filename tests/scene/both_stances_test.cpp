@@ -108,7 +108,7 @@ float left_foot_ahead(const FightRecord& record, const MotionLibrary& library, s
 }
 
 TEST(BothStances, ASouthpawFightsAsOneFromTheFirstTickToTheLast) {
-  const auto scene = read_scene("duel", {"duration_s=8", "fighter.1.stance=southpaw"});
+  const auto scene = read_scene("duel", {"duration_s=12", "fighter.1.stance=southpaw"});
   ASSERT_TRUE(scene) << to_string(scene.error());
   const MotionLibrary library = library_for(*scene, default_library());
   const FightRecord record = simulate_fight(library, *scene);

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "default_library.h"
 #include "motion/aim.h"
 #include "motion/quality.h"
+#include "physics/body.h"
 #include "scene/fight.h"
 
 namespace ringcraft {
@@ -114,6 +117,46 @@ TEST(StrikeFit, AStrikeIsMovedFartherAndNearer) {
     const float was = (jab.strikes[0].nearest + jab.strikes[0].farthest) / 2;
     const float is = (moved.strikes[0].nearest + moved.strikes[0].farthest) / 2;
     EXPECT_NEAR(is - was, by, 0.04f);
+  }
+}
+
+// Captured in shadow work, where they end 20 cm under a standing head.
+TEST(StrikeFit, CapturedBlowsAreLedToTheirAims) {
+  const MotionLibrary& library = default_library();
+  int led = 0;
+  for (const Action& action : library.actions()) {
+    if (is_authored(action)) continue;
+    for (const Strike& strike : action.strikes) {
+      if (strike.aim.empty()) continue;
+      ++led;
+      EXPECT_LT(nearest(action, strike, 1), 0.03f) << action.name;
+      EXPECT_GT(strike.farthest, strike.nearest) << action.name;
+    }
+  }
+  EXPECT_GE(led, 15);
+}
+
+// What cannot be thrown at somebody so tall is not chosen; all else stays inside the joints'
+// ranges.
+TEST(StrikeFit, ABlowThatDoesNotFitTheOpponentIsNotChosen) {
+  const auto scene =
+      read_scene("duel", {"fighter.0.body=lightweight", "fighter.1.body=heavyweight"});
+  ASSERT_TRUE(scene) << to_string(scene.error());
+  const MotionLibrary library = library_for(*scene, default_library());
+  const MotionLibrary& small = library.of(FighterId(std::size_t{0}));
+  const auto chosen = [](const MotionLibrary& of, const char* name) {
+    return std::count(of.launchable().begin(), of.launchable().end(), of.find(name)) > 0;
+  };
+  EXPECT_FALSE(chosen(small, "elbow_rear"));
+  EXPECT_TRUE(chosen(library, "elbow_rear"));
+  EXPECT_TRUE(chosen(small, "cross"));
+  BodySpec spec;
+  spec.height = kCanonicalHeight;
+  const BodyModel body = make_body(spec);
+  for (const ActionId id : small.launchable()) {
+    for (const Pose& pose : small.action(id).clip.frames) {
+      EXPECT_TRUE(limit_violations(body, pose, radians(3)).empty()) << small.action(id).name;
+    }
   }
 }
 

@@ -6,7 +6,7 @@ const PRUNED = {
   unanswered_hit: ['unanswered hit', 'the line lets itself be struck without defending'],
   back_turned: ['back turned', 'the fighter would show its back'],
   penetration: ['penetration', 'the bodies would pass through each other'],
-  candidates: ['candidates', 'not among the likeliest actions by the offense/defense table'],
+  candidates: ['candidates', 'beyond the best of the list that every node keeps'],
 };
 const FILTERS = ['hit', 'block', 'miss', 'knockdown', 'response', 'getup', 'strike', 'decision'];
 
@@ -123,6 +123,8 @@ export class Panels {
       const [name, why] = PRUNED[key] ?? [plain(key), ''];
       return `<tr><th>${escapeHtml(name)}</th><td>${count(value)}</td><td class="why">${escapeHtml(why)}</td></tr>`;
     });
+    const struck = (event.struck_off ?? []).map((one) =>
+      `<tr><th>${escapeHtml(plain(one.action))}</th><td class="why">${escapeHtml(one.rules.map((rule) => (PRUNED[rule] ?? [plain(rule)])[0]).join(', '))}</td></tr>`);
     const lines = event.lines ?? [];
     const picture = this.form === 'tree' ? `<div class="tree-box">${treeSvg(event, this.colours, points)}</div>`
       : linesHtml(event, this.colours, points);
@@ -139,6 +141,7 @@ export class Panels {
         <button data-form="tree" aria-pressed="${this.form === 'tree'}">Tree</button><button data-form="lines" aria-pressed="${this.form === 'lines'}">Lines</button></div>
       ${lines.length ? picture : '<p class="none">No line was kept.</p>'}
       <p class="key"><span class="step forced">forced</span> an answer that physics chose: one edge out, not a choice. Scores in points.</p>
+      ${struck.length ? `<h3>First moves struck off</h3><table class="pruned struck">${struck.join('')}</table>` : ''}
       ${pruned.length ? `<h3>Pruned</h3><table class="pruned">${pruned.join('')}</table>` : ''}
       <p class="key">Counted over the whole tree.${this.treeCommand(event)}</p>`;
   }
@@ -151,7 +154,7 @@ export class Panels {
     if (before && event.t - before.t < 1e-6) return '';
     const seed = header.seed === undefined ? '' : ` --seed ${header.seed}`;
     const command = `ringcraft tree ${header.scene ?? 'SCENE'}${seed} --at ${Math.floor(event.t * 1000) / 1000}`;
-    return ` Each pruned branch by name, and the terms of each score: <code>${escapeHtml(command)}</code>`;
+    return ` Each pruned branch of it by name, and the terms of each edge: <code>${escapeHtml(command)}</code>`;
   }
 
   makeReport() {

@@ -83,11 +83,23 @@ export function treeSvg(event, colours, score) {
   return `<svg class="tree" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" role="img" aria-label="Game tree">${edges.join('')}${boxes.join('')}</svg>`;
 }
 
+// What a line is worth by each term, for both fighters: a row each, empty terms left out.
+function termsHtml(line, event, colours, score) {
+  if (!Array.isArray(line.terms)) return '';
+  const rows = line.terms.map((terms, i) => {
+    const who = i === 0 ? event.who : event.whom;
+    const parts = Object.entries(terms).filter(([, value]) => value !== 0)
+      .map(([name, value]) => `${escapeHtml(name)} <b>${escapeHtml(score(value))}</b>`);
+    return parts.length ? `<div class="terms" style="--c:${colours[who % colours.length] ?? '#8b95a5'}"><i></i>${parts.join(' ')}</div>` : '';
+  });
+  return rows.join('');
+}
+
 export function linesHtml(event, colours, score) {
   const rows = (event.lines ?? []).map((line, i) => {
     const steps = stepsOf(line).map((step) =>
       `<span class="step${step.forced ? ' forced' : ''}" style="--c:${colours[step.actor % colours.length]}"${step.forced ? ' title="forced: the answer that physics chose"' : ''}>${escapeHtml(plain(step.name))}</span>`);
-    return `<li class="${i === (event.chosen ?? 0) ? 'chosen' : ''}"><span class="points">${escapeHtml(scoreText({ score: line.score, atMost: line.at_most }, score))}</span><div>${steps.join('<i>›</i>')}</div></li>`;
+    return `<li class="${i === (event.chosen ?? 0) ? 'chosen' : ''}"><span class="points">${escapeHtml(scoreText({ score: line.score, atMost: line.at_most }, score))}</span><div>${steps.join('<i>›</i>')}${termsHtml(line, event, colours, score)}</div></li>`;
   });
   return `<ol class="lines">${rows.join('')}</ol>`;
 }
