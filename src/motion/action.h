@@ -86,8 +86,11 @@ struct Action {
   Stance stance = Stance::orthodox;  // of whom it is for
   bool switches = false;             // ends in the other stance
   // Leads from one action to another and is never chosen for itself: made by the builder from a way
-  // through the motion graph, or an attack that cannot be thrown at this opponent (is_left_out).
+  // through the motion graph.
   bool connects = false;
+  // An attack that cannot be thrown at an opponent of that height; only in a library fitted to one,
+  // never in a file.
+  bool left_out = false;
   std::string source;  // the capture or sheet, with the seconds cut from it
 
   Tick length() const { return clip.length(); }

@@ -45,6 +45,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
     if (action.feint) hasher.add(action.feint->of).add(action.feint->parted);
     hasher.add(action.starts_lying).add(action.ends_lying);
     if (action.connects) hasher.add(action.connects);
+    if (action.left_out) hasher.add(action.left_out);
     if (action.stance != Stance::orthodox) hasher.add(action.stance);
     add(hasher, action.clip);
   }
@@ -90,7 +91,7 @@ MotionLibrary::MotionLibrary(LibraryParts parts)
 void MotionLibrary::sort_actions() {
   for (std::size_t i = 0; i < actions_.size(); ++i) {
     const Kind kind = actions_[i].kind;
-    if (actions_[i].connects) continue;
+    if (actions_[i].connects || actions_[i].left_out) continue;
     (kind == Kind::response ? responses_
      : kind == Kind::get_up ? get_ups_
                             : launchable_)
@@ -108,8 +109,14 @@ ActionId MotionLibrary::find(std::string_view name) const {
 
 std::size_t MotionLibrary::count(Kind kind) const {
   return static_cast<std::size_t>(
-      std::count_if(actions_.begin(), actions_.end(),
-                    [&](const Action& action) { return action.kind == kind && !action.connects; }));
+      std::count_if(actions_.begin(), actions_.end(), [&](const Action& action) {
+        return action.kind == kind && !action.connects && !action.left_out;
+      }));
+}
+
+MotionLibrary MotionLibrary::with(std::vector<Action> actions) const {
+  return MotionLibrary(
+      LibraryParts{name_, std::move(actions), machine_, {}, dropped_, notes_, switches_});
 }
 
 }  // namespace ringcraft

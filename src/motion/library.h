@@ -34,6 +34,10 @@ class MotionLibrary {
   // As it was built before: nothing is looked for and nothing dropped.
   explicit MotionLibrary(LibraryParts parts);
 
+  // The same machine over the same actions in the same order, of which only clips and reaches
+  // differ; without the graph, which is for building.
+  MotionLibrary with(std::vector<Action> actions) const;
+
   const std::string& name() const { return name_; }
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight
   const std::vector<Action>& actions() const { return actions_; }

@@ -544,17 +544,7 @@ MotionLibrary fitted(const MotionLibrary& library, float ratio) {
   for (Action& action : actions) {
     if (guard != nullptr) action = fitted(library.skeleton(), action, *guard, ratio);
   }
-  return MotionLibrary(LibraryParts{library.name(),
-                                    std::move(actions),
-                                    library.machine(),
-                                    {},
-                                    library.dropped(),
-                                    library.notes(),
-                                    library.switches()});
-}
-
-bool is_left_out(const Action& action) {
-  return action.connects && action.attacks();
+  return library.with(std::move(actions));
 }
 
 bool as_tall(float ratio) {

@@ -42,9 +42,6 @@ MotionLibrary fitted(const MotionLibrary& library, float ratio);
 // as tall, looked for near the old ones.
 void find_reaches(const Skeleton& skeleton, const Pose& guard, float ratio, Action& action);
 
-// Whether it is an attack that nobody chooses: it cannot be thrown at an opponent of that height.
-bool is_left_out(const Action& action);
-
 // Whether somebody `ratio` times as tall needs no clips of his own: up to 1 % taller or shorter.
 bool as_tall(float ratio);
 

@@ -216,8 +216,4 @@ class Duel {
 };
 static_assert(Game<Duel>);
 
-// `foreseen` as a timeline would tell it; `node` is the one that followed it.
-Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
-               const DuelNode& node);
-
 }  // namespace ringcraft

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/strike_fit.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
 
@@ -242,8 +241,6 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   const StateMachine& machine = library_.machine();
   const Path* path = machine.path(from, to);
   if (path == nullptr || path->via.size() > kLongestPath) return std::nullopt;
-  const auto left_out = [&](ActionId over) { return is_left_out(library_.action(over)); };
-  if (std::any_of(path->via.begin(), path->via.end(), left_out)) return std::nullopt;
   const ActionTable& table = actions_[to.at()];
   NextAction next;
   next.to = to;

@@ -4,25 +4,17 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/random.h"
-#include "planner/duel.h"
-#include "planner/root_search.h"
-#include "planner/soft_choice.h"
+#include "planner/decision_record.h"
 #include "planner/tally.h"
 #include "planner/tree.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr std::size_t kMostLines = 6;
-constexpr double kRarityKept = 0.9;     // phi <- 0.9 phi + 0.1 [launched]
-constexpr Tick kHorizonStep = 30;       // 0.25 s
-constexpr Tick kFirstHorizon = 90;      // 0.75 s
-constexpr Tick kGrowthStep = 60;        // 0.5 s
-constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
-constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured
-constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
+constexpr double kRarityKept = 0.9;  // phi <- 0.9 phi + 0.1 [launched]
 
 bool same_build(const BodySpec& a, const BodySpec& b) {
   return a.height == b.height && a.mass == b.mass && a.sex == b.sex && a.toughness == b.toughness;
@@ -37,15 +29,6 @@ ActionId attack_of(const MotionLibrary& library, const Action& feint) {
   }
   return {};
 }
-
-using Roots = std::vector<RootMove<Duel>>;
-
-struct Searched {
-  Roots roots;
-  Tick horizon = 0;  // ticks looked ahead
-  DuelCounts root_counts;
-  SearchCounts counts;  // of the horizon that was finished
-};
 
 }  // namespace
 
@@ -74,11 +57,22 @@ struct Planner::Inside {
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
   FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
-  Searched search(const DuelSetup& setup, const FightState& state, const SoftChoice& preference,
-                  const PlanLimits& limits) const;
-  Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
-                                 const SoftChoice& preference) const;
   SoftChoice preference(const FightState& state, FighterId fighter) const;
+
+  // A decision as its fighter sees it.
+  struct View {
+    FighterId opponent;
+    FightState state;
+    DuelSetup setup;
+  };
+  // Nothing where there is nobody to fight.
+  std::optional<View> view(const FightState& truth, FighterId fighter, Tick last_contact) const {
+    const FighterId opponent = opponent_of(truth, fighter);
+    if (!opponent.valid()) return std::nullopt;
+    FightState seen = as_seen(truth, fighter, opponent);
+    DuelSetup duel = setup(seen, fighter, opponent, last_contact);
+    return View{opponent, std::move(seen), std::move(duel)};
+  }
 };
 
 Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how,
@@ -211,242 +205,11 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   return setup;
 }
 
-// One step of every move: what is left when the node limit does not pay for the shortest horizon.
-Searched Planner::Inside::weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
-                                                const SoftChoice& preference) const {
-  Searched result;
-  result.horizon = kHorizonStep;
-  Duel game(setup, root.now + kHorizonStep);
-  std::vector<DuelMove> moves;
-  game.moves(root, moves);
-  for (const DuelMove& move : moves) {
-    const Child<DuelNode> child = game.apply(root, move);
-    result.roots.push_back({move,
-                            child,
-                            game.value(child.node),
-                            preference(game.key(move)),
-                            true,
-                            {},
-                            {1, 1, 0, 0, 0},
-                            game});
-  }
-  std::stable_sort(result.roots.begin(), result.roots.end(),
-                   [](const auto& a, const auto& b) { return a.sum() > b.sum(); });
-  result.counts.nodes = result.counts.leaves = moves.size();
-  return result;
-}
-
-// Iterative deepening by time: a short horizon first, whose best moves order the next and whose
-// growth tells how far a limit will carry.
-Searched Planner::Inside::search(const DuelSetup& setup, const FightState& state,
-                                 const SoftChoice& preference, const PlanLimits& limits) const {
-  const Style& style = *setup.side[0].style;
-  const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
-  const DuelNode root = Duel::root(setup, state);
-  SearchSettings search_settings;
-  search_settings.cost = setup.cost;
-  SearchStop stop;
-  stop.set_flag(limits.stop);
-  const auto begin = SearchStop::Clock::now();
-  if (limits.seconds > 0) {
-    stop.set_deadline(begin + std::chrono::duration_cast<SearchStop::Clock::duration>(
-                                  std::chrono::duration<double>(limits.seconds)));
-  }
-  if (limits.any()) search_settings.stop = &stop;
-  RootSearch<Duel> search(search_settings, settings.threads, settings.alpha_beta);
-  const std::uint64_t limit = settings.node_limit;
-  Searched best;
-  Tick horizon = std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon);
-  double growth = kFirstGrowth;
-  std::uint64_t nodes_before = 0;
-  while (true) {
-    Duel game(setup, state.now + horizon);
-    Roots roots = search.run(game, root, preference, limit);
-    if (roots.empty()) break;
-    const Tick before = best.horizon;
-    best.roots = std::move(roots);
-    best.horizon = horizon;
-    best.root_counts = game.counts();
-    best.counts = {};
-    for (const RootMove<Duel>& move : best.roots) best.counts += move.counts;
-    if (horizon >= wanted) break;
-    const auto nodes = static_cast<double>(std::max<std::uint64_t>(1, search.spent()));
-    if (before > 0 && nodes_before > 0) {
-      const double half_seconds = 2 * seconds(horizon - before);
-      growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / half_seconds));
-    }
-    nodes_before = search.spent();
-    // The next step, where what is left should pay for it.
-    const double after =
-        std::pow(growth, static_cast<double>(kHorizonStep) / static_cast<double>(kGrowthStep));
-    if (limit != 0 && after > static_cast<double>(limit) / nodes) break;
-    if (limits.seconds > 0) {
-      const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
-      if (spent.count() * (1 + after) > limits.seconds) break;
-    }
-    horizon = std::min(wanted, horizon + kHorizonStep);
-  }
-  return best.roots.empty() ? weighed_by_first_step(setup, root, preference) : std::move(best);
-}
-
 SoftChoice Planner::Inside::preference(const FightState& state, FighterId fighter) const {
   const std::uint64_t moment = derived_seed(seed, "choice", static_cast<std::uint64_t>(state.now));
   return {contenders[fighter.at()].style.temperature,
           derived_seed(moment, "fighter", static_cast<std::uint64_t>(fighter.value))};
 }
-
-Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const MotionLibrary& library,
-               const DuelNode& node) {
-  const auto id = [&](int who) {
-    return who < 2 ? setup.side[static_cast<std::size_t>(who)].id
-                   : setup.others[static_cast<std::size_t>(who - 2)].id;
-  };
-  const ImpactAnswer& answer = foreseen.answer;
-  const Frame frame =
-      node.side[static_cast<std::size_t>(foreseen.victim)].flight.frame_at(foreseen.tick);
-  Event event;
-  event.tick = foreseen.tick;
-  event.type = foreseen.kind == DuelEvent::Kind::hit     ? EventType::hit
-               : foreseen.kind == DuelEvent::Kind::block ? EventType::block
-                                                         : EventType::miss;
-  event.who = id(foreseen.attacker);
-  event.whom = id(foreseen.victim);
-  event.action = library.action(foreseen.attack).name;
-  event.strike = library.action(foreseen.attack).strikes[foreseen.strike].kind;
-  if (foreseen.kind == DuelEvent::Kind::evaded) return event;
-  event.part = name_of(foreseen.blow.contact.struck);
-  event.point = frame.to_outer(foreseen.blow.contact.point);
-  event.speed = -glm::dot(foreseen.blow.contact.velocity, foreseen.blow.contact.normal);
-  event.damage = static_cast<float>(answer.damage) / 1000;
-  event.response = answer.outcome.response;
-  event.steps = answer.outcome.steps;
-  event.direction = wrapped_angle(frame.yaw + answer.outcome.direction);
-  event.knockout = answer.outcome.knockout;
-  event.head_spin = answer.outcome.head_spin;
-  return event;
-}
-
-namespace {
-
-// What the line says will happen: the moves are played again and their events written down.
-std::vector<Event> foreseen_events(const DuelSetup& setup, const MotionLibrary& library,
-                                   const FightState& state, const RootMove<Duel>& chosen,
-                                   Tick horizon) {
-  std::vector<Event> events;
-  Duel game(setup, state.now + horizon);
-  DuelNode node = Duel::root(setup, state);
-  std::vector<DuelMove> line{chosen.move};
-  line.insert(line.end(), chosen.line.begin(), chosen.line.end());
-  for (const DuelMove& move : line) {
-    std::vector<DuelEvent> met;
-    game.record_into(&met);
-    node = game.apply(node, move).node;
-    for (const DuelEvent& one : met) events.push_back(event_of(one, setup, library, node));
-  }
-  return events;
-}
-
-// The terms along a line that was kept, where they add up to its score: the table may have known
-// the rest of it without the moves.
-std::optional<std::array<LineTerms, 2>> terms_of(const RootMove<Duel>& root, const DuelSetup& setup,
-                                                 const FightState& state, Tick horizon) {
-  if (!root.exact) return std::nullopt;
-  Duel game(setup, state.now + horizon);
-  DuelTerms terms{};
-  game.record_terms_into(&terms);
-  DuelNode node = game.step(Duel::root(setup, state), root.move).node;
-  for (const DuelMove& move : root.line) node = game.step(node, move).node;
-  if (node.gained != root.value) return std::nullopt;
-  std::array<LineTerms, 2> result;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto credited = [&](Term term) {
-      return terms[i][static_cast<std::size_t>(term)].credited;
-    };
-    result[i] = {credited(Term::location), credited(Term::hit), credited(Term::defense),
-                 credited(Term::control)};
-  }
-  return result;
-}
-
-// The first moves that rules struck off, in the order of the candidates.
-std::vector<StruckOff> struck_off(const Roots& roots, const DuelSetup& setup,
-                                  const MotionLibrary& library, const FightState& state,
-                                  Tick horizon) {
-  Duel game(setup, state.now + horizon);
-  const DuelNode root = Duel::root(setup, state);
-  std::vector<ActionId> turned;
-  std::vector<DuelMove> moves;
-  game.record_turned_into(&turned);
-  game.moves(root, moves);
-  game.record_turned_into(nullptr);
-  std::vector<StruckOff> all;
-  for (const DuelMove& move : moves) {
-    const bool kept = std::any_of(roots.begin(), roots.end(), [&](const RootMove<Duel>& one) {
-      return game.key(one.move) == game.key(move);
-    });
-    if (kept) continue;
-    const DuelCounts before = game.counts();
-    game.apply(root, move);
-    StruckOff one{library.action(move.action).name, {}};
-    for (const Pruned rule : reasons_between(before, game.counts())) {
-      one.rules.emplace_back(name_of(rule));
-    }
-    all.push_back(std::move(one));
-  }
-  for (const ActionId one : turned) {
-    all.push_back({library.action(one).name, {std::string(name_of(Pruned::back_turned))}});
-  }
-  return all;
-}
-
-Line line_of(const RootMove<Duel>& root, const DuelSetup& setup, const MotionLibrary& library) {
-  Line line;
-  line.score = root.value;
-  line.at_most = !root.exact;
-  const auto add = [&](const DuelMove& move) {
-    const std::string& name = library.action(move.first()).name;
-    line.actions.push_back(move.forced ? "*" + name : name);
-    line.actors.push_back(setup.side[move.side].id.value);
-  };
-  add(root.move);
-  for (const DuelMove& move : root.line) add(move);
-  return line;
-}
-
-// The best first, those of which only an upper bound is known behind the others.
-void add_lines(DecisionRecord& record, const Roots& roots, const DuelSetup& setup,
-               const MotionLibrary& library, const FightState& state) {
-  std::vector<const RootMove<Duel>*> order;
-  order.reserve(roots.size());
-  for (const RootMove<Duel>& root : roots) order.push_back(&root);
-  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-    return a->exact != b->exact ? a->exact : a->value > b->value;
-  });
-  for (const RootMove<Duel>* root : order) {
-    const bool chosen = root == &roots.front();
-    if (record.lines.size() >= kMostLines && !chosen) continue;
-    if (chosen) record.chosen = static_cast<std::int32_t>(record.lines.size());
-    record.lines.push_back(line_of(*root, setup, library));
-    record.lines.back().terms = terms_of(*root, setup, state, record.horizon);
-  }
-}
-
-DecisionRecord record_of(const Searched& searched) {
-  DecisionRecord record;
-  record.horizon = searched.horizon;
-  record.nodes = searched.counts.nodes;
-  record.leaves = searched.counts.leaves;
-  record.forced_nodes = searched.counts.forced;
-  DuelCounts pruned = searched.root_counts;
-  for (const RootMove<Duel>& move : searched.roots) pruned += move.game.counts();
-  record.pruned_unanswered_hit = pruned.unanswered_hit;
-  record.pruned_back_turned = pruned.back_turned;
-  record.pruned_penetration = pruned.penetration;
-  record.pruned_candidates = pruned.candidates;
-  return record;
-}
-
-}  // namespace
 
 Planner::Planner(const MotionLibrary& library, std::vector<Contender> contenders,
                  PlanSettings settings, std::uint64_t seed, std::shared_ptr<ImpactStore> store)
@@ -482,24 +245,22 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
 Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact,
                    const PlanLimits& limits) {
   const Inside& in = *inside_;
-  const FighterId opponent = in.opponent_of(truth, fighter);
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
-  if (!opponent.valid()) return resting(in.library, truth, fighter, scale);
-  const FightState state = in.as_seen(truth, fighter, opponent);
-  const DuelSetup setup = in.setup(state, fighter, opponent, last_contact);
-  const Searched searched = in.search(setup, state, in.preference(state, fighter), limits);
+  const std::optional<Inside::View> view = in.view(truth, fighter, last_contact);
+  if (!view) return resting(in.library, truth, fighter, scale);
+  const FightState& state = view->state;
+  const DuelSetup& setup = view->setup;
+  const Searched searched = search_ahead(setup, state, in.preference(state, fighter), limits);
   if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
   Plan plan;
-  plan.record = record_of(searched);
+  plan.record = decision_record(setup, state, searched);
   plan.reproducible = !limits.any();
   const RootMove<Duel>& move = searched.roots.front();
-  add_lines(plan.record, searched.roots, setup, in.library, state);
-  plan.record.struck_off = struck_off(searched.roots, setup, in.library, state, searched.horizon);
   const FighterState& self = state.fighters[fighter.at()];
   if (move.move.forced) {
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
   } else {
-    const InFlight other(*setup.side[1].tables, state.fighters[opponent.at()].launch);
+    const InFlight other(*setup.side[1].tables, state.fighters[view->opponent.at()].launch);
     // Where a path leads to the chosen action, its first transition is launched; the fight may play
     // the rest (plan.then) or let the fighter decide anew.
     const ActionId action = move.move.first();
@@ -510,7 +271,7 @@ Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact
         following(in.library, self.launch, action, state.now, other.root_at(state.now).position(),
                   scale, in.library.action(action).attacks() ? kMostAttackAim : kMostAim);
   }
-  plan.foreseen = foreseen_events(setup, in.library, state, move, searched.horizon);
+  plan.foreseen = foreseen_events(setup, state, searched);
   return plan;
 }
 
@@ -527,38 +288,31 @@ std::vector<Event> Planner::foresee(const FightState& state, FighterId fighter) 
   game.play_on(node);
   std::vector<Event> events;
   for (const DuelEvent& one : met) {
-    if (one.attacker == 0) events.push_back(event_of(one, setup, in.library, node));
+    if (one.attacker == 0) events.push_back(event_of(one, setup, node));
   }
   return events;
 }
 
 DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last_contact,
                            Tick horizon, std::size_t most_nodes) const {
-  const Inside& in = *inside_;
-  const FighterId opponent = in.opponent_of(state, fighter);
-  if (!opponent.valid()) return {};
-  const FightState seen = in.as_seen(state, fighter, opponent);
-  return expand_tree(in.setup(seen, fighter, opponent, last_contact), seen, horizon, most_nodes);
+  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+  return view ? expand_tree(view->setup, view->state, horizon, most_nodes) : DecisionTree{};
 }
 
 SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last_contact,
                            Tick horizon, const SearchTrial& trial) const {
-  const Inside& in = *inside_;
-  const FighterId opponent = in.opponent_of(state, fighter);
-  if (!opponent.valid()) return {};
-  const FightState seen = in.as_seen(state, fighter, opponent);
-  const DuelSetup setup = in.setup(seen, fighter, opponent, last_contact);
-  return tally_of(setup, seen, horizon, trial, in.preference(state, fighter));
+  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+  if (!view) return {};
+  return tally_of(view->setup, view->state, horizon, trial,
+                  inside_->preference(view->state, fighter));
 }
 
 TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_contact,
                          Tick horizon, int dives) const {
-  const Inside& in = *inside_;
-  const FighterId opponent = in.opponent_of(state, fighter);
-  if (!opponent.valid()) return {};
-  const auto seed = derived_seed(in.seed, "shape", static_cast<std::uint64_t>(state.now));
-  const FightState seen = in.as_seen(state, fighter, opponent);
-  return shape_of(in.setup(seen, fighter, opponent, last_contact), seen, horizon, dives, seed);
+  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+  if (!view) return {};
+  const auto seed = derived_seed(inside_->seed, "shape", static_cast<std::uint64_t>(state.now));
+  return shape_of(view->setup, view->state, horizon, dives, seed);
 }
 
 void Planner::measure(SearchCost* cost) {

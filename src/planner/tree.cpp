@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "planner/decision_record.h"
+
 namespace ringcraft {
 namespace {
 
@@ -116,7 +118,7 @@ class Expansion {
     }
     for (const DuelEvent& one : met) {
       const Duelist& victim = child.node.side[static_cast<std::size_t>(one.victim)];
-      edge.events.push_back({event_of(one, setup_, library_, child.node),
+      edge.events.push_back({event_of(one, setup_, child.node),
                              one.kind != DuelEvent::Kind::evaded && victim.pending.valid() &&
                                  one.tick == child.node.now});
     }
@@ -134,18 +136,8 @@ class Expansion {
   bool expand(int at) {
     if (node(at).kind == TreeKind::terminal) return true;
     const DuelNode from = states_[static_cast<std::size_t>(at)];
-    std::vector<ActionId> turned;
-    std::vector<DuelMove> moves;
     const std::uint64_t beyond = game_.counts().candidates;
-    game_.record_turned_into(&turned);
-    game_.moves(from, moves);
-    game_.record_turned_into(nullptr);
-    std::vector<TreePruned> pruned;
-    for (const ActionId one : turned) {
-      if (std::any_of(moves.begin(), moves.end(), [&](auto& m) { return m.action == one; }))
-        continue;  // the least turned is kept where all are
-      pruned.push_back({library_.action(one).name, {Pruned::back_turned}});
-    }
+    auto [moves, pruned] = sift(game_, from, library_);
     std::vector<Grown> grown;
     Grown spare;
     LeastFault least_fault;
@@ -157,7 +149,7 @@ class Expansion {
         if (least_fault.lowered_by(child.fault, game_.key(move))) {
           spare = {edge, child.node}, spare_place = pruned.size();
         }
-        pruned.push_back({edge.action, edge.kept});
+        pruned.push_back({library_.action(move.action).name, edge.kept});
         continue;
       }
       edge.kept.clear();
@@ -236,6 +228,21 @@ class Expansion {
 };
 
 }  // namespace
+
+Sifted sift(Duel& game, const DuelNode& node, const MotionLibrary& library) {
+  Sifted sifted;
+  std::vector<ActionId> turned;
+  game.record_turned_into(&turned);
+  game.moves(node, sifted.moves);
+  game.record_turned_into(nullptr);
+  for (const ActionId one : turned) {
+    // The least turned is kept where all are.
+    const bool kept = std::any_of(sifted.moves.begin(), sifted.moves.end(),
+                                  [&](const DuelMove& move) { return move.action == one; });
+    if (!kept) sifted.pruned.push_back({library.action(one).name, {Pruned::back_turned}});
+  }
+  return sifted;
+}
 
 std::vector<Pruned> reasons_between(const DuelCounts& before, const DuelCounts& after) {
   std::vector<Pruned> reasons;

@@ -21,9 +21,16 @@ std::string_view name_of(Pruned reason);
 std::vector<Pruned> reasons_between(const DuelCounts& before, const DuelCounts& after);
 
 struct TreePruned {
-  std::string action;
+  std::string action;  // the last one, where a path leads to it
   std::vector<Pruned> reasons;
 };
+
+// The candidates of a node, without those that show the back: they are `pruned`.
+struct Sifted {
+  std::vector<DuelMove> moves;
+  std::vector<TreePruned> pruned;
+};
+Sifted sift(Duel& game, const DuelNode& node, const MotionLibrary& library);
 
 struct TreeEvent {
   Event event;

@@ -45,15 +45,9 @@ MotionLibrary fitted_library(const MotionLibrary& library, float ratio) {
     if (!action.attacks() || guard == nullptr) continue;
     keep_in_ranges(body, action.clip);
     find_reaches(library.skeleton(), *guard, ratio, action);
-    action.connects = action.connects || !can_be_thrown(body, action);
+    action.left_out = !can_be_thrown(body, action);
   }
-  return MotionLibrary(LibraryParts{fit.name(),
-                                    std::move(actions),
-                                    fit.machine(),
-                                    {},
-                                    fit.dropped(),
-                                    fit.notes(),
-                                    fit.switches()});
+  return fit.with(std::move(actions));
 }
 
 }  // namespace ringcraft

@@ -135,7 +135,7 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   m.name = action.name;
   m.kind = action.kind;
   m.authored = is_authored(action);
-  m.left_out = is_left_out(action);
+  m.left_out = action.left_out;
   m.seconds = seconds(action.length());
   m.peak_speed_mps = peak_speed(skeleton, action);
   if (action.attacks()) m.strike_begin_s = seconds(action.strikes.front().active_begin);

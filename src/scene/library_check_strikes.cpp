@@ -182,7 +182,7 @@ std::vector<StrikeMeasures> measure_strikes(const MotionLibrary& library, float 
   const Pose* guard = standing_guard(library);
   if (guard == nullptr) return all;
   for (const Action& action : library.actions()) {
-    if (is_left_out(action)) continue;
+    if (action.left_out) continue;
     std::size_t first = 1;
     for (std::size_t i = 0; i < action.strikes.size(); ++i) {
       const Strike& strike = action.strikes[i];
