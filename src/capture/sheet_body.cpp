@@ -28,11 +28,6 @@ Quat part_of(Quat rotation, float share) {
   return from_rotation_vector(rotation_vector(rotation) * share);
 }
 
-float eased(float from, float to, float x) {
-  const float u = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
 Quat foot_rotation(const FootTarget& foot) {
   return yaw_rotation(foot.yaw) * glm::angleAxis(foot.heel, kLeft);
 }
@@ -50,7 +45,7 @@ void turn_girdle(const Skeleton& skeleton, Side side, Vec3 wrist, Pose& pose) {
   Vec3 turn = rotation_vector(rotation_between(rest, toward));
   const float angle = glm::length(turn);
   if (angle < 1e-5f) return;
-  const float wanted = std::min(angle * 0.3f, kMostGirdle) * eased(0.45f, 1.0f, reach);
+  const float wanted = std::min(angle * 0.3f, kMostGirdle) * glm::smoothstep(0.45f, 1.0f, reach);
   pose.rotation[index(girdle)] = from_rotation_vector(turn * (wanted / angle));
 }
 
@@ -78,7 +73,8 @@ void lay_on_floor(const Skeleton& skeleton, Side side, Pose& pose) {
   const float back_up = glm::cross(hand * axis, along).y / kHandLength;
   const float turn = std::clamp(turn_to_height(along, hand * axis, up), 0.0f, kMostWrist);
   pose.rotation[index(limb.end)] =
-      pose.rotation[index(limb.end)] * glm::angleAxis(turn * eased(0, 0.4f, back_up), axis);
+      pose.rotation[index(limb.end)] *
+      glm::angleAxis(turn * glm::smoothstep(0.0f, 0.4f, back_up), axis);
 }
 
 // The same for the toes of a foot in the air; the turn from the asked rotation, rad. A foot that
@@ -90,7 +86,7 @@ float toes_off_floor(const Skeleton& skeleton, Vec3 ankle, Quat rotation) {
   const Vec3 axis = rotation * kLeft;
   const float level = std::abs(glm::cross(axis, ball).y) / glm::length(ball);
   const float turn = std::clamp(turn_to_height(ball, axis, up), -kMostAnkle, kMostAnkle);
-  return turn * eased(0, 0.35f, level);
+  return turn * glm::smoothstep(0.0f, 0.35f, level);
 }
 
 // A knee that would go through the floor kneels on it: the thigh turns up about the hip until the
@@ -103,7 +99,8 @@ Vec3 kneeling(const Skeleton& skeleton, const Limb& limb, const Pose& pose, Vec3
   const float thigh = skeleton.bone(limb.middle), shin = skeleton.bone(limb.end);
   const float down = std::min(hip.y - kKneeRadius, thigh);
   // Under the hip its own direction says little: the deeper it is, the more the asked one helps.
-  const Vec3 asked = Vec3(pole.x, 0, pole.z) * (0.12f * eased(0, 0.08f, kKneeRadius - knee.y));
+  const Vec3 asked =
+      Vec3(pole.x, 0, pole.z) * (0.12f * glm::smoothstep(0.0f, 0.08f, kKneeRadius - knee.y));
   const Vec3 out = normalized_or(Vec3(knee.x - hip.x, 0, knee.z - hip.z) + asked, kForward);
   const Vec3 rests =
       hip + out * std::sqrt(std::max(0.0f, thigh * thigh - down * down)) - kUp * down;

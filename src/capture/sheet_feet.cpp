@@ -14,11 +14,6 @@ constexpr float kClear =
     0.075f;  // m: of a free ankle that moves over the floor, above a standing one
 constexpr float kHanging = 25.0f;  // degrees of point of a foot that hangs
 
-float eased(float from, float to, float x) {
-  const float u = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
 const Placement& placement_at(const std::vector<Placement>& root, float t) {
   const auto last = static_cast<Tick>(root.size()) - 1;
   return root[static_cast<std::size_t>(std::clamp<Tick>(ticks(t), 0, last))];
@@ -189,15 +184,15 @@ void FootMotion::make_rise(Span& span, const SheetAction& action,
     const Vec3 way = span.path->at(t + kTickSeconds) - span.path->at(t - kTickSeconds);
     const float speed = std::hypot(way.x, way.z) / (2 * kTickSeconds);
     const float missing = std::max(0.0f, clear - span.path->at(t).y);
-    const float knee_up = knee.empty() ? 1 : eased(0.05f, 0.18f, knee.at(t).y);
-    span.rise.push_back(missing * eased(0.1f, 0.5f, speed) * knee_up);
+    const float knee_up = knee.empty() ? 1 : glm::smoothstep(0.05f, 0.18f, knee.at(t).y);
+    span.rise.push_back(missing * glm::smoothstep(0.1f, 0.5f, speed) * knee_up);
   }
   widen(span.rise, 10);
   for (Tick tick = 0; tick < count; ++tick) {
     const auto since = static_cast<float>(seconds(tick));
     const auto until = static_cast<float>(seconds(count - 1 - tick));
     float& rise = span.rise[static_cast<std::size_t>(tick)];
-    rise *= eased(0, kLetGo, since) * eased(0, kLetGo, until);
+    rise *= glm::smoothstep(0.0f, kLetGo, since) * glm::smoothstep(0.0f, kLetGo, until);
   }
 }
 
@@ -241,8 +236,8 @@ const FootMotion::Span* FootMotion::span_at(float t) const {
 
 float FootMotion::freedom(const Span& span, float t) const {
   if (!span.free) return 0;
-  const float up = span.starts_free ? 1 : eased(span.lift, span.lift + kLetGo, t);
-  const float down = span.ends_free ? 1 : 1 - eased(span.land - kLetGo, span.land, t);
+  const float up = span.starts_free ? 1 : glm::smoothstep(span.lift, span.lift + kLetGo, t);
+  const float down = span.ends_free ? 1 : 1 - glm::smoothstep(span.land - kLetGo, span.land, t);
   return std::min(up, down);
 }
 

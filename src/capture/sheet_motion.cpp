@@ -60,11 +60,6 @@ bool is_yaw(Channel channel) {
          channel == Channel::lead_foot_yaw || channel == Channel::rear_foot_yaw;
 }
 
-float eased(float from, float to, float x) {
-  const float u = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
 }  // namespace
 
 std::vector<SheetKey> merged_keys(const SheetAction& action) {
@@ -190,7 +185,7 @@ void TrunkMotion::fill(float t, BodyTargets& targets) const {
   const Quat upright =
       leaning(0, radians(lean.y) * 0.5f, radians(look.x)) * glm::angleAxis(-radians(look.y), kLeft);
   // A body that lies takes its head along.
-  const float lying = eased(40, 75, glm::length(Vec2(lean.x, lean.y)));
+  const float lying = glm::smoothstep(40.0f, 75.0f, glm::length(Vec2(lean.x, lean.y)));
   // (on its side the neck gives way to the floor)
   const Quat along = leaning(radians(lean.x), radians(lean.y) * 1.2f, radians(chest_yaw)) *
                      glm::angleAxis(radians(12), kLeft);
@@ -265,7 +260,7 @@ HandMotion::HandMotion(const Skeleton& skeleton, const SheetAction& action,
 float HandMotion::Snap::at(float t) const {
   constexpr float kCocked = 0.2f, kLetsGo = 0.42f;  // shares of the hand's time
   const float u = (t - start) / (contact - start);
-  return lag * eased(-0.4f, kCocked, u) * (1 - eased(kLetsGo, 1.0f, u));
+  return lag * glm::smoothstep(-0.4f, kCocked, u) * (1 - glm::smoothstep(kLetsGo, 1.0f, u));
 }
 
 Vec3 HandMotion::sway(float t) const {
@@ -279,7 +274,7 @@ ArmTarget HandMotion::at(float t, const BodyTargets& trunk) const {
   ArmTarget target;
   target.wrist = path_ ? path_->at(t) : chest.position + chest.rotation * in_chest_.at(t);
   // A hand on the floor stays there.
-  const float above = eased(0.10f * kH, 0.30f * kH, target.wrist.y);
+  const float above = glm::smoothstep(0.10f * kH, 0.30f * kH, target.wrist.y);
   target.wrist += sway(t) * (above * (path_ ? 0.5f : 1.0f));
   const Vec3 hanging = glm::normalize(Vec3(side_ == Side::left ? 0.5f : -0.5f, -0.8f, -0.3f));
   const Vec3 pole = pole_.empty() ? hanging : pole_.at(t);

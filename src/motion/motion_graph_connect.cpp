@@ -13,7 +13,7 @@ namespace ringcraft {
 
 namespace {
 
-constexpr Tick kFar = std::numeric_limits<Tick>::max() / 4;
+constexpr Tick kNever = std::numeric_limits<Tick>::max() / 4;
 constexpr int kRounds = 10;
 constexpr std::size_t kTriesAtOnce = 600;
 constexpr std::size_t kAtOnce = 24;             // ways made before paths are looked at again
@@ -45,7 +45,7 @@ class WaySearch {
   // One way to each action that is reached over at least one stretch of frames.
   std::vector<Way> from(ActionId action, std::size_t actions) const {
     const auto& transitions = graph_.transitions;
-    std::vector<Tick> cost(transitions.size(), kFar), played(transitions.size(), 0);
+    std::vector<Tick> cost(transitions.size(), kNever), played(transitions.size(), 0);
     std::vector<std::size_t> before(transitions.size(), kNone);
     using Entry = std::pair<Tick, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -116,7 +116,7 @@ class WaySearch {
     for (std::size_t t = 0; t < cost.size(); ++t) {
       const Transition& last = graph_.transitions[t];
       const auto to = static_cast<std::size_t>(last.to_clip);
-      if (cost[t] == kFar || before[t] == kNone || last.to != 0 || to >= actions) continue;
+      if (cost[t] == kNever || before[t] == kNone || last.to != 0 || to >= actions) continue;
       if (best[to] == kNone || cost[t] < cost[best[to]]) best[to] = t;
     }
     std::vector<Way> ways;

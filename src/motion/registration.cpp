@@ -14,7 +14,7 @@ constexpr float kSmooth = 0.03f;   // s: sigma of the curve's smoothing
 constexpr float kSlowest = 0.2f;   // ticks of the other clip for one of the reference, at least
 constexpr Tick kCoarse = 4;        // ticks between frames that are compared for the distance
 constexpr Tick kNearestPhase = 3;  // ticks between two moments that hold the curve
-constexpr float kFar = std::numeric_limits<float>::max();
+constexpr float kUnreached = std::numeric_limits<float>::max();
 
 // How a cell was reached: by both clips, or by one alone for the first or second time in a row.
 // There is no third: the other runs at a third of its pace at least (the slope limit of Kovar and
@@ -27,7 +27,7 @@ struct Cell {
 };
 
 std::pair<float, std::uint8_t> cheapest(const Cell& cell, std::initializer_list<std::size_t> ways) {
-  std::pair<float, std::uint8_t> best{kFar, 0};
+  std::pair<float, std::uint8_t> best{kUnreached, 0};
   for (const std::size_t way : ways)
     if (cell.cost[way] < best.first) best = {cell.cost[way], static_cast<std::uint8_t>(way)};
   return best;
@@ -48,7 +48,7 @@ std::vector<std::pair<Tick, Tick>> warped(const DistanceMap& map, std::pair<Tick
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       Cell& here = cell(r, c);
-      here.cost.fill(kFar);
+      here.cost.fill(kUnreached);
       here.from.fill(0);
       if (r == 0 && c == 0) {
         here.cost[both] = distance(0, 0);
@@ -57,7 +57,7 @@ std::vector<std::pair<Tick, Tick>> warped(const DistanceMap& map, std::pair<Tick
       const auto reach = [&](std::size_t way, const Cell& before,
                              std::initializer_list<std::size_t> ways, float times) {
         const auto [cost, from] = cheapest(before, ways);
-        if (cost == kFar) return;
+        if (cost == kUnreached) return;
         here.cost[way] = cost + times * distance(r, c);
         here.from[way] = from;
       };
@@ -79,7 +79,7 @@ std::vector<std::pair<Tick, Tick>> warped(const DistanceMap& map, std::pair<Tick
   std::size_t r = rows - 1, c = columns - 1;
   auto [cost, way] =
       cheapest(cell(r, c), {both, rows_once, rows_twice, columns_once, columns_twice});
-  if (cost == kFar) {
+  if (cost == kUnreached) {
     for (std::size_t i = 0; i < rows; ++i)
       path.emplace_back(
           begin.first + static_cast<Tick>(i),

@@ -40,10 +40,6 @@ constexpr float kMostDorsiflexion = radians(31);  // of a foot with its heel dow
 constexpr int kHeelRounds = 4;
 constexpr float kKicks = 0.05f;  // m of way at which a foot is wholly one that kicks
 
-float eased(float x) {
-  return glm::smoothstep(0.0f, 1.0f, x);
-}
-
 bool by_foot(const Strike& strike) {
   const Joint tip = tip_of(strike.joint);
   return tip == Joint::left_foot || tip == Joint::right_foot;
@@ -200,12 +196,13 @@ class Mover {
     for (Tick t = from; t <= led.meeting.tick; ++t) {
       const float along = way[static_cast<std::size_t>(t - from)] / std::max(way.back(), 1e-4f);
       const float over = static_cast<float>(t - from) / static_cast<float>(lasts);
-      led.share[static_cast<std::size_t>(t)] = eased(0.7f * along + 0.3f * over);
+      led.share[static_cast<std::size_t>(t)] =
+          glm::smoothstep(0.0f, 1.0f, 0.7f * along + 0.3f * over);
     }
     const auto rest = static_cast<float>(std::max<Tick>(1, led.until - led.meeting.tick));
     for (Tick t = led.meeting.tick + 1; t <= led.until; ++t) {
       led.share[static_cast<std::size_t>(t)] =
-          1 - eased(static_cast<float>(t - led.meeting.tick) / rest);
+          1 - glm::smoothstep(0.0f, 1.0f, static_cast<float>(t - led.meeting.tick) / rest);
     }
     led.share = smoothed(led.share, kShareSigma);
   }
@@ -224,8 +221,10 @@ class Mover {
       const auto rest = static_cast<float>(action_.length() - led.meeting.tick) * kTickSeconds;
       const float lead = std::min(kTrunkLeads, left), back = std::min(kLetsGo, rest);
       const float share =
-          since < 0 ? eased((since + lead) / std::max(lead - kTrunkThere, 0.02f))
-                    : 1 - eased((since - kTrunkThere) / std::max(back - kTrunkThere, 0.02f));
+          since < 0
+              ? glm::smoothstep(0.0f, 1.0f, (since + lead) / std::max(lead - kTrunkThere, 0.02f))
+              : 1 - glm::smoothstep(0.0f, 1.0f,
+                                    (since - kTrunkThere) / std::max(back - kTrunkThere, 0.02f));
       sum = sum + led.help * share;
       total += share;
     }

@@ -19,11 +19,6 @@ constexpr float kBreath = radians(0.7f);  // of the upper chest
 constexpr float kShoulderBreath = radians(1.3f);
 constexpr float kSoftReach = 0.985f;
 
-float eased(float x) {
-  const float u = std::clamp(x, 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
 // 1 far from every moment at which the hand can hit, less near them.
 float freedom(const Action& action, Joint hand, Tick age) {
   float least = 1;
@@ -36,7 +31,8 @@ float freedom(const Action& action, Joint hand, Tick age) {
     if (!arm_strikes || left != (hand == Joint::left_hand)) continue;
     const Tick before = strike.active_begin - age, after = age - strike.active_end;
     const auto away = static_cast<float>(seconds(std::max({before, after, Tick{0}})));
-    least = std::min(least, kStriking + (1 - kStriking) * eased(away / kComesBack));
+    least = std::min(least,
+                     kStriking + (1 - kStriking) * glm::smoothstep(0.0f, 1.0f, away / kComesBack));
   }
   return least;
 }

@@ -14,15 +14,6 @@ constexpr int kImpulseSteps = 24;  // of 1/240 s: at 100 ms the decision agrees 
 // of those fall, most within 0.6 s, before a step could land.
 constexpr float kSwept = .6f;
 constexpr int kSpinSteps = 3;  // the head's spin is read before a joint's stop can show in it
-constexpr float kNeckShare =
-    0.5f;  // of full tone: what reproduces the published head accelerations
-
-Tone tone_of(float tone) {
-  Tone t = whole_body(tone);
-  t[index(Part::neck)] *= kNeckShare;
-  t[index(Part::head)] *= kNeckShare;
-  return t;
-}
 
 // Steps that the extrapolated centre of mass asks for, 0..3, or 4 where no number of steps holds
 // it.
@@ -152,7 +143,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
                            const KeptOwnMotion& kept) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
-  ragdoll.set_tone(tone_of(input.tone));
+  ragdoll.set_tone(struck_tone(input.tone));
   Balance balance(body, frame);
   // Nobody lands far from where the feet hang: in the air they are the base to come.
   const bool flies = !frame.contacts().left && !frame.contacts().right;
@@ -183,7 +174,9 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   Base::Beyond beyond = excess({});
   if (beyond.distance > 0) {
     const Base start = base_of(body, world_pose(body.skeleton, frame.pose()), planted);
-    const auto run = [&] { return carried_by_the_action(body, frame, tone_of(input.tone), start); };
+    const auto run = [&] {
+      return carried_by_the_action(body, frame, struck_tone(input.tone), start);
+    };
     beyond = excess(kept ? kept(frame.mirrored(), run) : run());
   }
   const float swept = swept_by(body, frame, ragdoll);

@@ -46,6 +46,8 @@ btMatrix3x3 basis(Quat turn, Vec3 x, Vec3 y) {
   return {a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z};
 }
 
+}  // namespace
+
 // Three angular rows that drive a child toward a wanted relative velocity, each limited by a torque
 // (ragdoll.md, "Servo3"). An implicit velocity servo: stable for any tone and mass ratio, because
 // the solver sees contacts and neighbours.
@@ -115,6 +117,8 @@ class Servo final : public btTypedConstraint {
   std::optional<Quat> back_;  // where a joint beyond its range goes
   float stop_torque_ = 0;     // N m
 };
+
+namespace {
 
 // World rotations of the parts' joints for a pose.
 std::array<Quat, kPartCount> part_rotations(const WorldPose& world) {

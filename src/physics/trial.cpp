@@ -8,21 +8,13 @@ namespace ringcraft {
 namespace {
 
 constexpr float kFallen = .75f;  // of the centre of mass's height at the start
-constexpr float kNeckShare = .5f;
-
-Tone tone_of(float tone) {
-  Tone t = whole_body(tone);
-  t[index(Part::neck)] *= kNeckShare;
-  t[index(Part::head)] *= kNeckShare;
-  return t;
-}
 
 }  // namespace
 
 Standing simulate_standing(const BodyModel& body, const ImpactInput& input, float seconds) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
-  ragdoll.set_tone(tone_of(input.tone));
+  ragdoll.set_tone(struck_tone(input.tone));
   strike(ragdoll, body, frame, 1);
   Balance balance(body, frame);
   const float height = ragdoll.center_of_mass().y;
@@ -54,7 +46,7 @@ std::array<Vec3, kPartCount> parts_after(const BodyModel& body, const ImpactInpu
                                          float step) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds, {.step = step});
-  ragdoll.set_tone(tone_of(input.tone));
+  ragdoll.set_tone(struck_tone(input.tone));
   strike(ragdoll, body, frame, 1);
   Balance balance(body, frame);
   const int steps = static_cast<int>(std::lround(.1f / step));
@@ -71,7 +63,7 @@ std::array<Vec3, kPartCount> parts_after(const BodyModel& body, const ImpactInpu
 float bare_loop(const BodyModel& body, const ImpactInput& input) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
-  ragdoll.set_tone(tone_of(input.tone));
+  ragdoll.set_tone(struck_tone(input.tone));
   strike(ragdoll, body, frame, 1);
   for (int k = 0; k < 24; ++k) ragdoll.step();
   return ragdoll.center_of_mass().y;

@@ -14,7 +14,7 @@ constexpr Tick kEvery = 3;                        // ticks between two frames th
 constexpr float kStrikeHand = 2.5f;               // m/s: a hand faster than that strikes
 constexpr float kTau = 0.05f, kStrikeTau = 0.1f;  // s, weights of velocities
 
-struct Moment {
+struct Posture {
   std::array<Vec3, kJoints> position, velocity;
   float hand = 0;  // m/s, of the faster hand against the pelvis
 };
@@ -36,9 +36,9 @@ std::array<Vec3, kJoints> joints_of(const Skeleton& skeleton, const Pose& pose) 
 }
 
 void collect(const Skeleton& skeleton, const Clip& clip, Tick from, Tick to,
-             std::vector<Moment>& moments) {
+             std::vector<Posture>& moments) {
   for (Tick t = std::max<Tick>(1, from); t < std::min<Tick>(to, clip.length()); t += kEvery) {
-    Moment moment;
+    Posture moment;
     moment.position = joints_of(skeleton, clip.at(t));
     const auto before = joints_of(skeleton, clip.at(t - 1));
     const auto after = joints_of(skeleton, clip.at(t + 1));
@@ -50,9 +50,9 @@ void collect(const Skeleton& skeleton, const Clip& clip, Tick from, Tick to,
   }
 }
 
-double nearest(const Moment& a, const std::vector<Moment>& to, float tau) {
+double nearest(const Posture& a, const std::vector<Posture>& to, float tau) {
   float best = 1e9f;
-  for (const Moment& b : to) {
+  for (const Posture& b : to) {
     float sum = 0;
     for (std::size_t i = 0; i < kJoints && sum < best; ++i) {
       sum += glm::length2(a.position[i] - b.position[i]) +
@@ -81,19 +81,19 @@ bool boxes(const Action& action) {
 }  // namespace
 
 Yardstick yardstick(const MotionLibrary& library, const Clip& real, Tick from, Tick to) {
-  std::vector<Moment> captured, strikes, authored;
+  std::vector<Posture> captured, strikes, authored;
   collect(library.skeleton(), real, from, to, captured);
   std::copy_if(captured.begin(), captured.end(), std::back_inserter(strikes),
-               [](const Moment& moment) { return moment.hand > kStrikeHand; });
+               [](const Posture& moment) { return moment.hand > kStrikeHand; });
   Yardstick result;
   std::vector<double> out, hands;
   for (const Action& action : library.actions()) {
     if (!boxes(action)) continue;
-    std::vector<Moment> moments;
+    std::vector<Posture> moments;
     collect(library.skeleton(), action.clip, 0, action.length(), moments);
     std::vector<double> own;
     own.reserve(moments.size());
-    for (const Moment& moment : moments) {
+    for (const Posture& moment : moments) {
       own.push_back(nearest(moment, captured, kTau));
       hands.push_back(moment.hand);
     }
@@ -107,7 +107,7 @@ Yardstick yardstick(const MotionLibrary& library, const Clip& real, Tick from, T
   result.authored_90 = quantile(out, 0.9);
   std::vector<double> back;
   back.reserve(strikes.size());
-  for (const Moment& moment : strikes) back.push_back(nearest(moment, authored, kStrikeTau));
+  for (const Posture& moment : strikes) back.push_back(nearest(moment, authored, kStrikeTau));
   result.strikes_median = quantile(back, 0.5);
   result.strikes_90 = quantile(back, 0.9);
   result.fast_hand = quantile(hands, 0.99);

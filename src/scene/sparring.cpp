@@ -13,7 +13,7 @@ namespace {
 constexpr float kNearest = 0.4f, kFarthest = 3.0f, kStep = 0.02f;  // m between the roots
 
 // What the defender does: stands, defends once, stands on.
-struct Answer {
+struct Reply {
   ActionId defense;  // invalid: only stands
   Tick offset = 0;
 };
@@ -105,7 +105,7 @@ class AttackSparring {
   }
 
   // The defender's flights in order: each ends where the next one begins.
-  std::vector<InFlight> flights(const Placement& relative, const Answer& answer, Tick last) const {
+  std::vector<InFlight> flights(const Placement& relative, const Reply& answer, Tick last) const {
     std::vector<InFlight> all;
     const Tick idle_length = defender_.at(idle_).length;
     Placement root = relative;
@@ -124,7 +124,7 @@ class AttackSparring {
     return all;
   }
 
-  Exchange outcome(const Placement& relative, const Answer& answer) const {
+  Exchange outcome(const Placement& relative, const Reply& answer) const {
     const InFlight attack =
         launched(attacker_, attack_, 0, {}, relative.position(), kMostAttackAim);
     const auto& strikes = attack.table->strikes;

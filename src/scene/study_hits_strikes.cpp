@@ -141,9 +141,9 @@ struct Published {  // mean and standard deviation
   double mean, deviation;
 };
 
-class StrikeTable {
+class StrikeRows {
  public:
-  StrikeTable(const std::vector<Landed>& all, HitRows& rows) : all_(all), rows_(rows) {}
+  StrikeRows(const std::vector<Landed>& all, HitRows& rows) : all_(all), rows_(rows) {}
 
   template <class Wanted>
   Picked pick(const Wanted& wanted) const {
@@ -179,7 +179,7 @@ class StrikeTable {
   HitRows& rows_;
 };
 
-void punch_rows(StrikeTable& t) {
+void punch_rows(StrikeRows& t) {
   const auto head = [&](StrikeKind kind, int lead) {
     return t.pick([=](const Landed& l) {
       return l.kind == kind && l.zone == TargetZone::head && (lead < 0 || l.lead == (lead == 1));
@@ -213,7 +213,7 @@ void punch_rows(StrikeTable& t) {
   t.order("rear over lead straight: force", rear, lead, &Landed::force, "1.26", at_least(1));
 }
 
-void kick_rows(StrikeTable& t) {
+void kick_rows(StrikeRows& t) {
   const auto kicks = [&](StrikeKind kind, bool to_leg) {
     return t.pick(
         [=](const Landed& l) { return l.kind == kind && (to_leg || l.zone != TargetZone::leg); });
@@ -257,7 +257,7 @@ void strike_rows(const HitsAsked& asked, HitRows& rows) {
   }
   rows.said("attacks of one blow that meet a standing body", "", static_cast<double>(all.size()),
             fmt::format("of {}", attacks.size()));
-  StrikeTable t(all, rows);
+  StrikeRows t(all, rows);
   punch_rows(t);
   kick_rows(t);
   for (const Landed& l : all) {

@@ -115,25 +115,25 @@ void add_timing(StudyTable& table, const std::string& pass, const Timed& found, 
   }
 }
 
-struct Setting {
+struct Variant {
   std::string name;
   SearchTrial trial;
 };
 
-std::vector<Setting> settings() {
+std::vector<Variant> settings() {
   constexpr std::pair<const char*, bool SearchDevices::*> kDevices[] = {
       {"own order", &SearchDevices::own_order}, {"table", &SearchDevices::table},
       {"killers", &SearchDevices::killers},     {"history", &SearchDevices::history},
       {"answers", &SearchDevices::answers},     {"null window", &SearchDevices::null_window}};
-  std::vector<Setting> all{{"all", {}}};
+  std::vector<Variant> all{{"all", {}}};
   all.reserve(16);
   for (const auto& [name, which] : kDevices) {
-    Setting one{fmt::format("without {}", name), {}};
+    Variant one{fmt::format("without {}", name), {}};
     one.trial.devices.*which = false;
     all.push_back(one);
   }
   all.push_back({"without deepening", {{}, false}});
-  Setting none{"none", {{}, false}};
+  Variant none{"none", {{}, false}};
   for (const auto& [name, which] : kDevices) none.trial.devices.*which = false;
   all.push_back(none);
   none.name = "own order alone";
@@ -178,7 +178,7 @@ Study search_study(const MotionLibrary& library, const SceneFile& scene, const S
   add_timing(study.timing, "known, no stopwatch", timed(library, scene, bouts, store, false, run),
              false);
 
-  const std::vector<Setting> all = settings();
+  const std::vector<Variant> all = settings();
   std::vector<Visited> visited(all.size());
   std::vector<double> branching, depth, whole, minimal;
   run.say("devices");

@@ -57,10 +57,10 @@ std::string stub_label(const TreePruned& pruned) {
 }
 
 // Moments from top to bottom: edges that take no time still go down.
-struct Moment {
+struct Instant {
   Tick tick = 0;
   int rank = 0;  // edges without duration that lead here
-  bool operator<(const Moment& o) const { return tick != o.tick ? tick < o.tick : rank < o.rank; }
+  bool operator<(const Instant& o) const { return tick != o.tick ? tick < o.tick : rank < o.rank; }
 };
 
 struct Stub {
@@ -71,7 +71,7 @@ struct Stub {
 
 struct Drawn {
   double x = 0;
-  Moment moment;
+  Instant moment;
   bool shown = false;
   bool opened = false;  // with its children
   std::vector<Stub> stubs;
@@ -111,7 +111,7 @@ class TreePicture {
 
  private:
   const TreeNode& at(std::size_t id) const { return tree_.nodes[id]; }
-  double y_of(const Moment& moment) const { return y_.at(moment); }
+  double y_of(const Instant& moment) const { return y_.at(moment); }
   const char* ink_of(FighterId who) const {
     return who == tree_.fighter ? kPlannerInk : kOpponentInk;
   }
@@ -133,7 +133,7 @@ class TreePicture {
       ++shown_;
       drawn_[id].moment = {at(id).tick, 0};
       if (id == 0) continue;
-      const Moment& from = drawn_[static_cast<std::size_t>(at(id).parent)].moment;
+      const Instant& from = drawn_[static_cast<std::size_t>(at(id).parent)].moment;
       if (from.tick == at(id).tick) drawn_[id].moment.rank = from.rank + 1;
     }
   }
@@ -198,7 +198,7 @@ class TreePicture {
   // The time axis, stretched where an edge is shorter than what is written beside it.
   void scale() {
     struct Span {
-      Moment from, to;
+      Instant from, to;
       double least;
     };
     std::vector<Span> spans;
@@ -213,7 +213,7 @@ class TreePicture {
                        kLetter * static_cast<double>(letters) + kAroundLabel});
     }
     double y = kTop;
-    const Moment* before = nullptr;
+    const Instant* before = nullptr;
     for (auto& [moment, place] : y_) {
       if (before != nullptr) y += kPerSecond * seconds(moment.tick - before->tick);
       for (const Span& span : spans) {
@@ -405,7 +405,7 @@ class TreePicture {
   const SceneTree& of_;
   const DecisionTree& tree_;
   std::vector<Drawn> drawn_;
-  std::map<Moment, double> y_;
+  std::map<Instant, double> y_;
   std::vector<double> skyline_;  // by bands of y: where the next column may begin
   std::size_t shown_ = 0;
   double next_x_ = kLeft, lowest_ = 0, row_ = 0;

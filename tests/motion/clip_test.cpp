@@ -15,8 +15,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const Skeleton kSkeleton = canonical_skeleton();
-
 TEST(Clip, SyntheticClipsHaveNoFaults) {
   EXPECT_THAT(faults(test::idle_clip(kSkeleton)), IsEmpty());
   EXPECT_THAT(faults(test::jab_clip(kSkeleton)), IsEmpty());

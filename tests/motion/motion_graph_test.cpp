@@ -13,8 +13,6 @@ namespace {
 using test::action_of;
 using ::testing::SizeIs;
 
-const Skeleton kSkeleton = canonical_skeleton();
-
 // The hips go from one height under the guard's to another, and then to a third.
 Clip sinking(float from, float middle, float to, Tick first, Tick second) {
   const Tick length = first + second;

@@ -9,7 +9,6 @@
 namespace ringcraft {
 namespace {
 
-const Skeleton kSkeleton = canonical_skeleton();
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
 // What is shown, tick by tick.

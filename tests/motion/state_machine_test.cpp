@@ -16,8 +16,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const Skeleton kSkeleton = canonical_skeleton();
-
 // A clip that goes from one stance to another; stances are told apart by the hips' height.
 Clip between(float from, float to, Tick length = 30) {
   return test::clip_of(

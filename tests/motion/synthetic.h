@@ -8,7 +8,11 @@
 #include "motion/ik.h"
 #include "motion/library.h"
 
-namespace ringcraft::test {
+namespace ringcraft {
+
+inline const Skeleton kSkeleton = canonical_skeleton();
+
+namespace test {
 
 // What a body does at one instant, in action space; metres and radians.
 struct Stance {
@@ -171,4 +175,5 @@ inline Action action_of(std::string name, Kind kind, Clip clip) {
   return action;
 }
 
-}  // namespace ringcraft::test
+}  // namespace test
+}  // namespace ringcraft
