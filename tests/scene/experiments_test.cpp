@@ -29,9 +29,10 @@ TEST(Experiments, DeepFightersStepAndDefendMoreAndBeatShallowOnes) {
   }
   SceneFile scene;
   scene.fighters.resize(2);
+  scene.planner.node_limit = 0;
   StudyRun run;
   run.threads = 2;
-  const auto results = run_pairings(*library, scene, pairings, {4, 30, 6}, run);
+  const auto results = run_pairings(*library, scene, pairings, {6, 60, 6}, run);
   for (const BoutTally& bout : results[0].bouts) EXPECT_EQ(bout.winner, 0);
   const PairingResult &shallow = results[1], &deep = results[2];
   const auto defended = [](const PairingResult& result) {

@@ -145,7 +145,16 @@ TEST(TreeOfScene, TimesOutsideAreUsageErrors) {
     EXPECT_EQ(tree.error().place, "--at");
   }
   // The last decision is past: the fight goes on, but nobody chooses any more.
-  const auto late = tree_at(default_library(), duel(), 2.99, kNodes);
+  SceneFile scene = duel();
+  Tick last = 0;
+  do {  // a fight that does not end with a decision
+    scene.duration -= 12;
+    last = 0;
+    for (const Event& event : simulate_fight(default_library(), scene).timeline.events) {
+      if (event.type == EventType::decision) last = event.tick;
+    }
+  } while (last + 1 >= scene.duration);
+  const auto late = tree_at(default_library(), scene, seconds(last + 1), kNodes);
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().kind, ErrorKind::usage);
   EXPECT_NE(late.error().what.find("last decision"), std::string::npos);
