@@ -19,6 +19,7 @@ struct Launch {
   float aim = 0;  // rad: turn toward the opponent, eased in over the first half of the startup
   bool forced = false;     // a response or a get-up: not chosen
   std::uint8_t spent = 0;  // bit i: strike i has hit, was blocked or was evaded
+  float share = 1;         // 0..1, of the clip that is shown: an absorbed blow (physics/partial.h)
 
   bool operator==(const Launch&) const = default;
 };

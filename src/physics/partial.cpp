@@ -4,6 +4,7 @@
 #include <array>
 
 #include "motion/ik.h"
+#include "motion/strike_fit.h"
 
 namespace ringcraft {
 namespace {
@@ -30,9 +31,7 @@ float apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
 float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
                     const Pose& rest, std::span<const Pose> clip) {
   if (clip.empty() || glm::length(input.blow.impulse) <= 0) return 0;
-  const auto at_rest = upper(body.skeleton, rest);
-  float goes = 0;
-  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(body.skeleton, pose), at_rest));
+  const float goes = way_of_clip(body.skeleton, rest, clip);
   if (goes <= 0) return 0;
 
   ImpactInput calm = input;
@@ -46,6 +45,33 @@ float share_of_clip(const BodyModel& body, const ImpactInput& input, const Impac
         std::max(moved, apart(upper(body.skeleton, struck[t]), upper(body.skeleton, unstruck[t])));
   }
   return std::min(1.0f, moved / goes);
+}
+
+void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose) {
+  const Pose* guard = standing_guard(library, response.stance);
+  if (guard == nullptr) return;
+  constexpr std::size_t kHips = index(Joint::hips);
+  for (std::size_t i = index(Joint::spine); i <= index(Joint::right_hand); ++i) {
+    pose.rotation[i] = guard->rotation[i];
+  }
+  // The trunk as the guard has it, however the clip's hips are turned.
+  const Quat hips = response.clip.frames.front().rotation[kHips];
+  pose.rotation[index(Joint::spine)] = glm::normalize(
+      glm::conjugate(hips) * guard->rotation[kHips] * guard->rotation[index(Joint::spine)]);
+}
+
+float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip) {
+  const auto at_rest = upper(skeleton, rest);
+  float goes = 0;
+  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(skeleton, pose), at_rest));
+  return goes;
+}
+
+float share_foreseen(const ImpactOutcome& outcome, float way_of_clip) {
+  if (way_of_clip <= 0) return 0;
+  const auto& [head, chest, hips] = outcome.moved;
+  const float moved = std::max(glm::distance(head, hips), glm::distance(chest, hips));
+  return std::min(1.0f, moved / way_of_clip);
 }
 
 Pose partial_pose(const Skeleton& skeleton, const Pose& rest, const Pose& pose, float share) {

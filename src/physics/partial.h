@@ -2,6 +2,7 @@
 // Partial responses: an absorbed blow is answered by as much of its clip as the blow moves the
 // body.
 
+#include "motion/library.h"
 #include "physics/impact.h"
 
 namespace ringcraft {
@@ -13,6 +14,18 @@ namespace ringcraft {
 // measured on the body that tracks `rest`, with the blow and without it.
 float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
                     const Pose& rest, std::span<const Pose> clip);
+
+// Takes a pose of an absorbing response's first frame to what its shares are measured from: the
+// same hips and legs, the rest of the body in the library's guard. As it is where there is no
+// guard.
+void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose);
+
+// How far the clip moves a body, m: the largest way of head, face and chest about the hips, from
+// `rest` on. One space, one scale.
+float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
+
+// share_of_clip() as an impulse step tells it, 100 ms on, without a second simulation.
+float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that
 // share of their own way, so that what stands in both stands.

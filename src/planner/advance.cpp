@@ -83,7 +83,7 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
                       : setup_->others[static_cast<std::size_t>(window.attacker - 2)].body;
   blow.victim = side(window.victim).body;
   blow.attack = flight.launch.action;
-  blow.struck_action = struck.launch.action;
+  blow.struck_action = struck.table->id;
   blow.attack_age = flight.table->clamped(flight.age(met.tick));
   blow.struck_age = struck.table->clamped(struck.age(met.tick));
   blow.kind = flight.table->strikes[window.strike].strike.kind;
@@ -154,6 +154,7 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
       answer.outcome.knockout || interrupts(met.contact.blocked, answer.impulse, answer.outcome);
   if (lies || !cut) return;
   victim.pending = answer.response;
+  victim.pending_share = answer.share;
   victim.queue = {};
   victim.knocked_out = answer.outcome.knockout;
   victim.flight.launch.end = met.tick;

@@ -91,6 +91,7 @@ std::uint64_t Duel::hash(const Node& node) const {
     const Launch& launch = one.flight.launch;
     mixer.add(launch.action.value, launch.start).add(launch.end, one.pending.value);
     mixer.add(launch.placement.x, launch.placement.z).add(launch.placement.yaw, launch.aim);
+    mixer.add(launch.share, one.pending.valid() ? one.pending_share : 1.0f);
     mixer.add(one.balance * 4 + (one.last_at_tie ? 2 : 0) + (one.knocked_out ? 1 : 0),
               launch.spent);
     mixer.add(one.health, 0);
@@ -122,9 +123,11 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
   const float scale = tables.body().scale;
   const Action& what = library.action(action);
   const Launch& last = duelist.flight.launch;
-  const Launch next = what.kind == Kind::get_up
-                          ? forced_get_up(library, last, action, node.now, scale)
-                          : forced_response(library, last, action, node.now, scale);
+  Launch next = what.kind == Kind::get_up ? forced_get_up(library, last, action, node.now, scale)
+                                          : forced_response(library, last, action, node.now, scale);
+  if (what.response && what.response->kind == ResponseKind::absorb) {
+    next.share = duelist.pending_share;
+  }
   duelist.flight = InFlight(tables, next);
   duelist.pending = {};
   if (what.kind == Kind::get_up) {

@@ -30,7 +30,8 @@ struct Duelist {
   bool last_at_tie = false;
   bool knocked_out = false;
   std::array<ActionId, kLongestPath> queue{};  // the rest of a chosen path; invalid: none
-  ActionId pending;  // the response that a forced node will launch; invalid otherwise
+  ActionId pending;         // the response that a forced node will launch; invalid otherwise
+  float pending_share = 1;  // Launch::share of it
 };
 
 struct DuelNode {

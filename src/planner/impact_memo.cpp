@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "physics/partial.h"
 #include "physics/response.h"
 
 namespace ringcraft {
@@ -194,6 +195,9 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotio
   if (steps.impulse > 0) answer.outcome = impulse_step(victim.body(), input, own);
   answer.response =
       choose_response(victim.library(), answer.outcome, facing, action.action->stance);
+  if (answer.outcome.response == ResponseKind::absorb) {
+    answer.share = share_foreseen(answer.outcome, victim.at(answer.response).way);
+  }
   return turned(answer, -facing);
 }
 

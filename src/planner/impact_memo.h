@@ -28,7 +28,7 @@ struct MemoSteps {
 // A landed blow as the tree meets it. Bodies are indices into the memo's tables.
 struct LandedBlow {
   int attacker = 0, victim = 0;
-  ActionId attack, struck_action;
+  ActionId attack, struck_action;  // of the tables: a part of a response has an id of its own
   Tick attack_age = 0, struck_age = 0;
   StrikeKind kind = StrikeKind::straight;
   Contact contact;         // in the victim's action space

@@ -19,6 +19,7 @@ namespace ringcraft {
 struct ImpactAnswer {
   ImpactOutcome outcome;  // its direction is a yaw in the victim's action space
   ActionId response;
+  float share = 1;          // of the response that is shown
   std::int32_t damage = 0;  // thousandths of a point
   float impulse = 0;        // N s
   bool operator==(const ImpactAnswer&) const = default;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/partial.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
 
 namespace ringcraft {
 namespace {
+
+// Shares of an absorbing response that have tables of their own; the whole is the next step.
+constexpr std::array<float, 3> kParts{0, 1.0f / 3, 2.0f / 3};
 
 float ground_distance(Vec3 p) {
   return std::hypot(p.x, p.z);
@@ -96,13 +100,14 @@ StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
   return result;
 }
 
-ActionTable action_table(const Action& action, const BodyModel& body) {
+// `poses` of the body, a frame each.
+ActionTable action_table(const Action& action, const BodyModel& body, std::vector<Pose> poses) {
   ActionTable table;
   table.action = &action;
   table.length = action.length();
+  table.pose = std::move(poses);
   for (std::size_t i = 0; i < action.clip.frames.size(); ++i) {
-    const Pose pose = scaled(action.clip.frames[i], body.scale);
-    table.pose.push_back(pose);
+    const Pose& pose = table.pose[i];
     table.root.push_back(scaled(action.clip.root[i], body.scale));
     table.capsules.push_back(capsules(body, world_pose(body.skeleton, pose)));
     const BodyCapsules& before = table.capsules[i > 0 ? i - 1 : 0];
@@ -219,8 +224,17 @@ const NextAction* ActionTable::find_next(ActionId to) const {
 
 MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     : library_(library), body_(body) {
-  for (const Action& action : library.actions()) actions_.push_back(action_table(action, body_));
-  for (std::size_t i = 0; i < actions_.size(); ++i) {
+  const std::size_t whole = library.actions().size();
+  actions_.reserve(whole + library.responses().size() * kParts.size());
+  parts_.resize(whole);
+  for (const Action& action : library.actions()) {
+    std::vector<Pose> poses;
+    poses.reserve(action.clip.frames.size());
+    for (const Pose& frame : action.clip.frames) poses.push_back(scaled(frame, body_.scale));
+    actions_.push_back(action_table(action, body_, std::move(poses)));
+    actions_.back().id = ActionId(actions_.size() - 1);
+  }
+  for (std::size_t i = 0; i < whole; ++i) {
     ActionTable& table = actions_[i];
     if (table.action->ends_lying != Lying::none && !library.get_ups().empty()) {
       table.get_up =
@@ -234,6 +248,36 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
       table.over.push_back(*next_action(ActionId(i), edge.to));
     }
   }
+  for (const ActionId response : library.responses()) {
+    if (library.action(response).response->kind == ResponseKind::absorb) add_parts(response);
+  }
+}
+
+void MotionTables::add_parts(ActionId action) {
+  ActionTable& whole = actions_[action.at()];
+  Pose rest = whole.pose.front();
+  put_in_guard(library_, *whole.action, rest);
+  whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
+  parts_[action.at()] = actions_.size();
+  for (const float share : kParts) {
+    std::vector<Pose> poses;
+    poses.reserve(whole.pose.size());
+    for (const Pose& pose : whole.pose) {
+      poses.push_back(partial_pose(body_.skeleton, rest, pose, share));
+    }
+    ActionTable part = action_table(*whole.action, body_, std::move(poses));
+    part.id = ActionId(actions_.size());
+    part.next = whole.next;
+    part.over = whole.over;
+    actions_.push_back(std::move(part));
+  }
+}
+
+const ActionTable& MotionTables::at(ActionId action, float share) const {
+  const std::size_t first = parts_[action.at()];
+  const auto step = static_cast<std::size_t>(
+      std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(kParts.size())));
+  return first == 0 || step >= kParts.size() ? actions_[action.at()] : actions_[first + step];
 }
 
 // `to` after `from`, by the direct edge or else by the shortest path.
@@ -265,7 +309,7 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
 }
 
 InFlight::InFlight(const MotionTables& tables, const Launch& of)
-    : table(&tables.at(of.action)), launch(of) {
+    : table(&tables.at(of.action, of.share)), launch(of) {
   Placement turned = of.placement;
   turned.yaw += of.aim;
   aimed = Frame(turned);

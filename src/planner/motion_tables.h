@@ -72,6 +72,7 @@ inline constexpr std::size_t kGroups = 5;
 inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
 struct ActionTable {
+  ActionId id;  // of MotionTables::at; beyond the library's actions where it is a part of one
   const Action* action = nullptr;
   Tick length = 0;
   std::vector<BodyCapsules> capsules;                   // action space, one a tick
@@ -85,6 +86,7 @@ struct ActionTable {
   std::vector<StrikeTable> strikes;
   float extent = 0;              // largest distance of the body from the origin on the ground, m
   Frame end;                     // root[length]
+  float way = 0;                 // of an absorbing response: way_of_clip (physics/partial.h), m
   ActionId get_up;               // of a fall: what follows it; invalid for anything else
   std::vector<NextAction> next;  // what a fighter may choose after it, by index
   std::vector<NextAction> over;  // what follows it only on the way to something else
@@ -113,13 +115,20 @@ class MotionTables {
   const MotionLibrary& library() const { return library_; }
   const BodyModel& body() const { return body_; }
   const ActionTable& at(ActionId action) const { return actions_[action.at()]; }
+  // The table of as much of an absorbing response as `share` says, to the nearest of a few.
+  const ActionTable& at(ActionId action, float share) const;
+  // Of the library's actions and of parts of them.
+  std::size_t count() const { return actions_.size(); }
 
  private:
   std::optional<NextAction> next_action(ActionId from, ActionId to) const;
 
   const MotionLibrary& library_;
   BodyModel body_;
+  void add_parts(ActionId action);
+
   std::vector<ActionTable> actions_;
+  std::vector<std::size_t> parts_;  // by action: the first of its parts, 0 where it has none
 };
 
 // A launch resolved against its tables: where its action space and its root lie at a tick.

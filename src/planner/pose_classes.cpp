@@ -46,7 +46,7 @@ PoseClasses::PoseClasses(const MotionTables& tables, Tick every, float alike) : 
   };
   std::vector<Class> classes;
   const float most = alike * alike * static_cast<float>(2 * kJointCount);
-  const std::size_t actions = tables.library().actions().size();
+  const std::size_t actions = tables.count();
   stands_for_.resize(actions);
   for (std::size_t a = 0; a < actions; ++a) {
     const ActionTable& action = tables.at(ActionId(a));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "motion/strike_fit.h"
 #include "physics/partial.h"
 #include "physics/response.h"
 
@@ -45,8 +44,8 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   }
   if (outcome.response == ResponseKind::absorb) {
     const Pose rest = rest_of(library, answer.launch, body.scale);
-    answer.share = share_of_clip(body, input, outcome, rest, target);
-    for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.share);
+    answer.launch.share = share_of_clip(body, input, outcome, rest, target);
+    for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
   }
   target.resize(static_cast<std::size_t>(ticks + kAhead) + 1);
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
@@ -57,17 +56,7 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
 
 Pose rest_of(const MotionLibrary& library, const Launch& response, float scale) {
   Pose rest = pose_at(library, response, response.start, scale);
-  const Action& action = library.action(response.action);
-  const Pose* guard = standing_guard(library, action.stance);
-  if (guard == nullptr) return rest;
-  constexpr std::size_t kHips = index(Joint::hips);
-  for (std::size_t i = index(Joint::spine); i <= index(Joint::right_hand); ++i) {
-    rest.rotation[i] = guard->rotation[i];
-  }
-  // The trunk as the guard has it, however the clip's hips are turned.
-  const Quat hips = action.clip.frames.front().rotation[kHips];
-  rest.rotation[index(Joint::spine)] = glm::normalize(
-      glm::conjugate(hips) * guard->rotation[kHips] * guard->rotation[index(Joint::spine)]);
+  put_in_guard(library, library.action(response.action), rest);
   return rest;
 }
 

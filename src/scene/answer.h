@@ -13,7 +13,6 @@ namespace ringcraft {
 struct Answer {
   Launch launch;                // of the response action, from where the cut action stands
   std::vector<Pose> simulated;  // world, one a tick from launch.start + 1 on
-  float share = 1;              // of the clip that is shown (physics/partial.h)
 };
 
 // `cut`: the interrupted launch, at tick `now`.

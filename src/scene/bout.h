@@ -54,7 +54,7 @@ class Bout {
   bool enemies(FighterId a, FighterId b) const;
   FighterId nearest_opponent(FighterId id) const;
   void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
-             const Pace& pace = {}, float share = 1);
+             const Pace& pace = {});
   Pace executed(FighterId id, Launch& launch);
   void tire(FighterId id);
   void note_strikes(FighterId id);

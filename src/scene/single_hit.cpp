@@ -89,7 +89,7 @@ class Showing {
   void show_answer(Answer answer, const ImpactOutcome& outcome) {
     lies_ = outcome.knockout;
     const Tick end = answer.launch.end;
-    stage_.begin(kStruck, answer.launch, std::move(answer.simulated), {}, answer.share);
+    stage_.begin(kStruck, answer.launch, std::move(answer.simulated));
     settle();
     show_to(end);
     if (outcome.response == ResponseKind::knockdown && !outcome.knockout) {

@@ -52,7 +52,6 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
                 {},
                 {},
                 {},
-                1,
                 {},
                 {},
                 0,
@@ -79,8 +78,8 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
   if (share > 0) {
     pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
   }
-  if (actor.share < 1) {
-    pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.share);
+  if (actor.launch.share < 1) {
+    pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.launch.share);
   }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
                             tick);
@@ -95,12 +94,11 @@ void Stage::begin(FighterId fighter, const Launch& launch) {
 }
 
 void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-                  const Pace& pace, float share) {
+                  const Pace& pace) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
   actor.pace = pace;
-  actor.share = share;
-  if (share < 1) actor.rest = rest_of(*actor.library, launch, actor.body.scale);
+  if (launch.share < 1) actor.rest = rest_of(*actor.library, launch, actor.body.scale);
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {
     actor.variation = Variation(derived_seed(static_cast<std::uint64_t>(launch.start), "launch",

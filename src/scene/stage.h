@@ -27,10 +27,10 @@ class Stage {
   // From the next tick on, the fighter's launch is shown, stitched to what is shown now.
   void begin(FighterId fighter, const Launch& launch);
 
-  // The same for a response: `simulated` poses are shown first, one a tick, then the launch's clip,
-  // or `share` of it (physics/partial.h).
+  // The same for a response: `simulated` poses are shown first, one a tick, then the launch's
+  // clip, or its share of it (physics/partial.h).
   void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-             const Pace& pace = {}, float share = 1);
+             const Pace& pace = {});
 
   // Moves a fighter's launch on the ground; the feet follow by steps of their own.
   void shift(FighterId fighter, Vec3 offset);
@@ -67,8 +67,7 @@ class Stage {
     Launch launch;
     Pace pace;                    // of this launch
     Variation variation;          // of this launch
-    float share = 1;              // of the clip that is shown
-    Pose rest;                    // what a share below 1 is measured from, world
+    Pose rest;                    // what a share of the clip is measured from, world
     std::vector<Pose> simulated;  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;

@@ -14,7 +14,7 @@ namespace {
 class BatchTest : public testing::Test {
  protected:
   static const SceneFile& scene() {
-    static const SceneFile kScene = *read_scene("duel", {"duration_s=1.5"});
+    static const SceneFile kScene = *read_scene("duel", {"duration_s=1.5", "seed=1"});
     return kScene;
   }
   static const MotionLibrary& library() {
