@@ -42,6 +42,18 @@ TEST_F(Partial, NoImpulseHasNothingOfTheClipAndAHarderBlowNeverLess) {
   EXPECT_GT(share(Part::head, {0, 0, -12}), 1.3f * share(Part::head, {0, 0, -6}));
 }
 
+// By the impulse step alone, for the tree: as far as the head goes against the hips.
+TEST_F(Partial, AForeseenShareIsTheWayOfTheBodyInTheWayOfTheClip) {
+  ImpactOutcome outcome;
+  EXPECT_EQ(share_foreseen(outcome, .1f), 0);
+  EXPECT_EQ(share_foreseen(outcome, 0), 0);
+  outcome.moved = {Vec3{0, 0, -.05f}, Vec3{0, 0, -.02f}, Vec3{0, 0, -.01f}};
+  EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);
+  EXPECT_EQ(share_foreseen(outcome, .01f), 1);  // never more than the clip
+  for (Vec3& one : outcome.moved) one += Vec3{.3f, 0, 0};
+  EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);  // who is shoved as a whole does not bend
+}
+
 TEST_F(Partial, APartialPoseStandsWhereRestAndClipStand) {
   const WorldPose stood = world_pose(body.skeleton, fighting);
   Pose crouched = fighting;

@@ -266,6 +266,18 @@ TEST_F(DuelTest, HitCutsTheActionAndTheForcedNodeHasOneEdge) {
             root_at(library(), hit.side[1].flight.launch, hit.now, tables().body().scale));
 }
 
+TEST_F(DuelTest, NodesAreOthersWhereAnotherShareOfTheClipIsShown) {
+  Duel game(setup_, 500);
+  const DuelNode node = Duel::root(setup_, facing(0.95f));
+  DuelNode shown = node, pending = node;
+  shown.side[1].flight.launch.share = 0.5f;
+  EXPECT_NE(game.hash(shown), game.hash(node));
+  pending.side[1].pending = node.side[1].flight.launch.action;
+  DuelNode less = pending;
+  less.side[1].pending_share = 0.5f;
+  EXPECT_NE(game.hash(less), game.hash(pending));
+}
+
 TEST_F(DuelTest, NobodyStandsWithoutHealth) {
   FightState state = facing(0.95f);
   state.fighters[1].health = 100;

@@ -1,0 +1,81 @@
+#include "planner/motion_tables.h"
+
+#include <gtest/gtest.h>
+
+#include "default_library.h"
+#include "physics/partial.h"
+
+namespace ringcraft {
+namespace {
+
+class PartsOfResponses : public testing::Test {
+ protected:
+  static const MotionTables& tables() {
+    static const MotionTables kTables(default_library(), make_body({}));
+    return kTables;
+  }
+  static std::vector<ActionId> absorbing() {
+    std::vector<ActionId> all;
+    for (const ActionId id : default_library().responses()) {
+      if (default_library().action(id).response->kind == ResponseKind::absorb) all.push_back(id);
+    }
+    return all;
+  }
+};
+
+TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
+  ASSERT_FALSE(absorbing().empty());
+  const Skeleton& skeleton = tables().body().skeleton;
+  for (const ActionId id : absorbing()) {
+    const ActionTable& whole = tables().at(id);
+    Pose rest = whole.pose.front();
+    put_in_guard(default_library(), *whole.action, rest);
+    EXPECT_FLOAT_EQ(whole.way, way_of_clip(skeleton, rest, whole.pose)) << whole.action->name;
+    ASSERT_GT(whole.way, 0) << whole.action->name;
+    for (const float share : {0.0f, 1.0f / 3, 2.0f / 3}) {
+      const ActionTable& part = tables().at(id, share);
+      // Turns are shared out, so the way is not quite straight.
+      EXPECT_NEAR(way_of_clip(skeleton, rest, part.pose), share * whole.way, 0.1f * whole.way)
+          << whole.action->name << " " << share;
+    }
+  }
+}
+
+TEST_F(PartsOfResponses, AreTheNearestToTheShareAndLeadWhereTheWholeLeads) {
+  for (const ActionId id : absorbing()) {
+    const ActionTable& whole = tables().at(id);
+    EXPECT_EQ(&tables().at(id, 1), &whole);
+    EXPECT_EQ(&tables().at(id, 0.9f), &whole);
+    EXPECT_EQ(&tables().at(id, 0.2f), &tables().at(id, 0.4f));
+    EXPECT_NE(&tables().at(id, 0.1f), &tables().at(id, 0.2f));
+    for (const float share : {0.0f, 0.3f, 0.6f}) {
+      const ActionTable& part = tables().at(id, share);
+      EXPECT_EQ(part.action, whole.action);
+      EXPECT_EQ(part.length, whole.length);
+      EXPECT_EQ(part.next.size(), whole.next.size());
+      EXPECT_EQ(&tables().at(part.id), &part);  // by an id of its own
+      EXPECT_GE(part.id.at(), default_library().actions().size());
+    }
+  }
+}
+
+TEST_F(PartsOfResponses, AreOfAbsorbingResponsesOnly) {
+  for (std::size_t i = 0; i < default_library().actions().size(); ++i) {
+    const Action& action = default_library().actions()[i];
+    if (action.response && action.response->kind == ResponseKind::absorb) continue;
+    EXPECT_EQ(&tables().at(ActionId(i), 0), &tables().at(ActionId(i))) << action.name;
+  }
+}
+
+// A launch says how much of its clip is shown, and the body in flight is that.
+TEST_F(PartsOfResponses, ALaunchFliesWithItsShare) {
+  Launch launch;
+  launch.action = absorbing().front();
+  launch.end = tables().at(launch.action).length;
+  EXPECT_EQ(InFlight(tables(), launch).table, &tables().at(launch.action));
+  launch.share = 0;
+  EXPECT_EQ(InFlight(tables(), launch).table, &tables().at(launch.action, 0));
+}
+
+}  // namespace
+}  // namespace ringcraft
