@@ -6,8 +6,6 @@
 namespace ringcraft {
 namespace {
 
-constexpr Tick kHorizonStep = 30;       // 0.25 s
-constexpr Tick kFirstHorizon = 90;      // 0.75 s
 constexpr Tick kGrowthStep = 60;        // 0.5 s
 constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
 constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured

@@ -5,13 +5,10 @@
 #include <optional>
 
 #include "base/random.h"
-#include "planner/root_search.h"
+#include "planner/horizon_search.h"
 
 namespace ringcraft {
 namespace {
-
-constexpr Tick kFirstHorizon = 90;   // 0.75 s
-constexpr Tick kDeepeningStep = 30;  // 0.25 s
 
 // The children that count: those without a fault, else the one with the least.
 std::vector<DuelNode> children_of(Duel& game, const DuelNode& node) {
@@ -79,7 +76,7 @@ SearchTally tally_of(const DuelSetup& setup, const FightState& state, Tick horiz
     if (!roots.empty()) tally.value = roots.front().value;
     for (const RootMove<Duel>& one : roots) tally.counts += one.counts;
     if (at >= horizon) break;
-    at = std::min(horizon, at + kDeepeningStep);
+    at = std::min(horizon, at + kHorizonStep);
   }
   return tally;
 }
