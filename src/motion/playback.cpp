@@ -18,6 +18,7 @@ constexpr float kFootAcceleration = 25;   // m/s2
 constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take off
 constexpr float kLongestStep = 0.45f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
+constexpr float kLedFrom = 0.2f;          // m: nearer to its goal a foot after a simulation is led
 constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
 constexpr float kNearlyDown = 0.035f;     // m: a step that is broken off below it is over
@@ -108,6 +109,20 @@ float Playback::blend_of(const Pose& now, const Pose& after) const {
   return std::min(seconds, settings_.longest_blend);
 }
 
+// The hips of a body that is up are back sooner than its farthest limb: legs that go where the clip
+// has them, from hips that lag behind, would be pulled straight.
+Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
+  if (!simulated_) return {offset, velocity, blend_seconds_};
+  float seconds = blend_seconds_;
+  if (!lies()) {
+    constexpr float kMostAcceleration = 12;  // m/s2
+    const float needed = std::max(std::sqrt(5.8f * glm::length(offset) / kMostAcceleration),
+                                  3.9f * glm::length(velocity) / (2 * kMostAcceleration));
+    seconds = std::min(seconds, std::max(settings_.blend_seconds, needed));
+  }
+  return {offset, velocity, seconds, std::min(stopping_seconds(velocity), seconds)};
+}
+
 bool Playback::lies() const {
   return shown_.hips.y < kLying * skeleton_.leg_length();
 }
@@ -119,8 +134,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const Vec3 moved = shown_.hips - before_.hips;
   const Vec3 clip_moved = after.hips - now.hips;
   const Vec3 hips_velocity = (moved - clip_moved) / kTickSeconds;
-  hips_ = {shown_.hips + moved - now.hips, hips_velocity, seconds,
-           simulated_ ? stopping_seconds(hips_velocity) : seconds};
+  hips_ = hips_decay(shown_.hips + moved - now.hips, hips_velocity);
   sink_ = {};  // what the hips had sunk is part of their offset now
   for (std::size_t j = 0; j < kJointCount; ++j) {
     rotation_[j] =
@@ -336,8 +350,9 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
   const float height = carried.y - floor;
 
-  // 0. Of a body that lies, a leg goes on by its joints until it is where the clip puts it down.
-  if (foot.by_joints && lies() && astray > settings_.restep_distance) return;
+  // 0. A leg goes on by its joints until it is near where the clip puts it down; of a body that
+  // lies, until it is there.
+  if (foot.by_joints && astray > (lies() ? settings_.restep_distance : kLedFrom)) return;
   // 1. Lifted: the way back to the clip.
   if (!planted && foot.mode != Mode::swing) {
     if (lift_waits(foot, other_foot, clip_ball)) return;

@@ -82,6 +82,7 @@ class Playback {
 
   // How long the difference to a clip takes to fall to nothing.
   float blend_of(const Pose& now, const Pose& after) const;
+  Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool lies() const;
   bool stands_still(const Foot& foot) const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }

@@ -404,16 +404,16 @@ class Shown {
     const float gone = std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
     const float since = now - landed_;
+    // The legs are let down before they, too, let go.
+    const float legs = glm::mix(kLetDownTone, kLyingTone,
+                                smooth((since - (lying_.empty() ? kFade : kGatherUntil)) / kFade));
+    for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) tone[i] = legs;
     if (!lying_.empty()) {
       // It gathers itself: as it lies, limbs go to where the get-up will need them.
       const float gather = smooth((since - kGatherFrom) / kGatherIn) *
                            (1 - smooth((since - kGatherUntil) / kGatherIn));
       for (float& t : tone) t = glm::mix(t, kGatherTone, gather);
     }
-    // The legs are let down before they, too, let go.
-    const float legs = glm::mix(kLetDownTone, kLyingTone,
-                                smooth((since - (lying_.empty() ? kFade : kGatherUntil)) / kFade));
-    for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) tone[i] = legs;
     return tone;
   }
 
