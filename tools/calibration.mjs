@@ -25,6 +25,19 @@ const follows = {
   "guard.toml": "medians of two captured guards, 26 s",
 };
 
+// What the sheets say may follow, the actions that say the same on one line; most of them first.
+function leads(actions) {
+  const by = new Map();
+  for (const a of actions) {
+    const words = a.may_lead_to.join(", ") || "whatever begins where it ends";
+    by.set(words, [...(by.get(words) ?? []), a.name]);
+  }
+  const groups = [...by].sort((x, y) => y[1].length - x[1].length);
+  return groups.map(
+    ([words, names], i) => `${i === 0 ? "May lead to" : `- ${names.join(", ")}:`} ${words}${i === 0 ? "." : ""}`,
+  );
+}
+
 const lines = [
   "# What the kickboxing sheets follow and measure",
   "",
@@ -42,13 +55,14 @@ const lines = [
 ];
 for (const name of [...new Set(authored.map(file))].sort()) {
   lines.push("", `## ${name}`, "", `Follows ${follows[name] ?? "no figures"}.`, "");
-  lines.push("| action | s | travel m | turn deg | head m | inside itself mm | still hands % |");
-  lines.push("|---|---|---|---|---|---|---|");
+  lines.push("| action | s | travel m | turn deg | head m | inside itself mm | still hands % | leads directly to |");
+  lines.push("|---|---|---|---|---|---|---|---|");
   for (const a of authored.filter((x) => file(x) === name)) {
     lines.push(
-      `| ${a.name} | ${n(a.seconds)} | ${n(a.travel_m)} | ${n((a.turn_rad * 180) / Math.PI, 0)} | ${n(a.head_moves_m)} | ${n(1000 * a.self_penetration_m, 0)} | ${n(100 * a.still_hands, 0)} |`,
+      `| ${a.name} | ${n(a.seconds)} | ${n(a.travel_m)} | ${n((a.turn_rad * 180) / Math.PI, 0)} | ${n(a.head_moves_m)} | ${n(1000 * a.self_penetration_m, 0)} | ${n(100 * a.still_hands, 0)} | ${a.leads_to} |`,
     );
   }
+  lines.push("", ...leads(authored.filter((x) => file(x) === name)));
   const names = new Set(authored.filter((x) => file(x) === name).map((a) => a.name));
   const strikes = check.strikes.filter((s) => names.has(s.action));
   if (strikes.length === 0) continue;

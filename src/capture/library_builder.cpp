@@ -1,6 +1,9 @@
 #include "capture/library_builder.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -203,17 +206,13 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
 // Files that a pattern names, sorted; * in the file name stands for any part of it.
 std::vector<std::filesystem::path> files_like(const std::filesystem::path& pattern) {
   const std::string name = pattern.filename().string();
-  const std::size_t star = name.find('*');
-  if (star == std::string::npos) return {pattern};
-  const std::string head = name.substr(0, star);
-  const std::string tail = name.substr(star + 1);
+  if (name.find('*') == std::string::npos) return {pattern};
   std::vector<std::filesystem::path> found;
   std::error_code fault;
   for (std::filesystem::directory_iterator it(pattern.parent_path(), fault), end;
        !fault && it != end; it.increment(fault)) {
     const std::string file = it->path().filename().string();
-    if (file.size() >= head.size() + tail.size() && file.starts_with(head) && file.ends_with(tail))
-      found.push_back(it->path());
+    if (fnmatch(name.c_str(), file.c_str(), 0) == 0) found.push_back(it->path());
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -262,7 +261,38 @@ Result<void> collect(const Document& manifest, Collector& out) {
   return {};
 }
 
+// What a sheet says of where an action leads is held against the poses: the first word that names
+// actions of which there is none, or none that begins where it ends.
+std::string wrong_lead(const MotionLibrary& library, ActionId from) {
+  const Action& action = library.action(from);
+  for (const std::string& word : action.leads_to) {
+    if (kind_from_name(word)) continue;
+    float nearest = std::numeric_limits<float>::max();
+    for (const Action& to : library.actions()) {
+      if (!means(word, to)) continue;
+      nearest = std::min(nearest, aligned(library.skeleton(), action.clip, to.clip).distance);
+    }
+    const auto& edges = library.machine().edges(from);
+    const bool leads = std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
+      return means(word, library.action(edge.to));
+    });
+    if (leads) continue;
+    if (nearest == std::numeric_limits<float>::max()) {
+      return fmt::format("leads to '{}', and no action is called so", word);
+    }
+    return fmt::format("leads to '{}', which begins {:.0f} cm from where it ends", word,
+                       100 * nearest);
+  }
+  return "";
+}
+
 Result<MotionLibrary> checked(const std::filesystem::path& source, MotionLibrary library) {
+  for (std::size_t i = 0; i < library.actions().size(); ++i) {
+    const std::string wrong = wrong_lead(library, ActionId(i));
+    if (wrong.empty()) continue;
+    return input_error(source.string(), library.actions()[i].source, wrong,
+                       "correct leads_to, or the poses at which the two meet");
+  }
   if (library.launchable().empty())
     return input_error(source.string(), "", "no action can follow another",
                        "let actions start and end near one guard");

@@ -166,6 +166,8 @@ class Reader {
     if (table.contains("ends_lying")) {
       action.ends_lying = lying_from_name(spelled(table["ends_lying"])).value();
     }
+    const json& said = table.contains("leads_to") ? table : document_.value;
+    action.leads_to = said.value("leads_to", std::vector<std::string>());
     action.switches = table.value("switches", false);
     if (table.contains("defense")) {
       const json& d = table["defense"];

@@ -91,6 +91,8 @@ nlohmann::json json_of(const LibraryCheck& check) {
                        {"self_penetration_m", m.self_penetration_m},
                        {"still_hands", m.still_hands},
                        {"head_moves_m", m.head_moves_m},
+                       {"leads_to", m.leads_to},
+                       {"may_lead_to", m.may_lead_to},
                        {"source", m.source}});
   }
   for (const StrikeMeasures& m : check.strikes) {

@@ -186,7 +186,12 @@ std::string leads_to(const MotionLibrary& library, ActionId from) {
                         edge.alignment.distance * 100);
   }
   if (more > 0) list += fmt::format(" and {} more", more);
-  return fmt::format("<p>leads directly to: {}</p>\n", list.empty() ? "nothing" : list);
+  const std::vector<std::string>& said = library.action(from).leads_to;
+  const std::string sheet =
+      said.empty()
+          ? ""
+          : fmt::format(" (its sheet: {})", escaped(fmt::format("{}", fmt::join(said, ", "))));
+  return fmt::format("<p>leads directly to{}: {}</p>\n", sheet, list.empty() ? "nothing" : list);
 }
 
 std::string strike_speeds(const std::vector<StrikeMeasures>& strikes, const Action& action) {

@@ -1,5 +1,8 @@
 #include "motion/action.h"
 
+#include <fnmatch.h>
+
+#include <algorithm>
 #include <array>
 
 namespace ringcraft {
@@ -50,6 +53,16 @@ std::string mirrored_name(const std::string& name) {
 
 }  // namespace
 
+bool means(const std::string& word, const Action& action) {
+  return word == name_of(action.kind) || fnmatch(word.c_str(), action.name.c_str(), 0) == 0;
+}
+
+bool may_lead(const Action& from, const Action& to) {
+  return from.leads_to.empty() ||
+         std::any_of(from.leads_to.begin(), from.leads_to.end(),
+                     [&](const std::string& word) { return means(word, to); });
+}
+
 bool is_authored(const Action& action) {
   return action.source.find(".toml:") != std::string::npos;
 }
@@ -96,6 +109,7 @@ Action mirrored(const Action& action) {
   result.name = mirrored_name(action.name);
   result.clip = mirrored(action.clip);
   for (Strike& strike : result.strikes) strike.joint = mirrored(strike.joint);
+  for (std::string& word : result.leads_to) word = mirrored_name(word);
   if (result.response) result.response->direction = -result.response->direction;
   return result;
 }

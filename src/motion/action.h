@@ -88,6 +88,9 @@ struct Action {
   // Leads from one action to another and is never chosen for itself: made by the builder from a way
   // through the motion graph.
   bool connects = false;
+  // What may follow it directly: names of actions, with * for any part, or kinds. Empty: whatever
+  // begins near to where it ends.
+  std::vector<std::string> leads_to;
   // An attack that cannot be thrown at an opponent of that height; only in a library fitted to one,
   // never in a file.
   bool left_out = false;
@@ -96,6 +99,11 @@ struct Action {
   Tick length() const { return clip.length(); }
   bool attacks() const { return !strikes.empty(); }
 };
+
+// Whether a word of `leads_to` means that action.
+bool means(const std::string& word, const Action& action);
+// Whether `from` says that `to` may follow it.
+bool may_lead(const Action& from, const Action& to);
 
 // True for an action that was compiled from a technique sheet.
 bool is_authored(const Action& action);

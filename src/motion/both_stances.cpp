@@ -63,7 +63,7 @@ class Doubled {
 
   void add_edge(std::size_t from, std::size_t to, float threshold) {
     const Action& last = actions_[from];
-    if (last.ends_lying != Lying::none) return;
+    if (last.ends_lying != Lying::none || !may_lead(last, actions_[to])) return;
     const Alignment alignment = aligned(library_.skeleton(), last.clip, actions_[to].clip);
     if (alignment.distance > threshold) return;
     const auto behind = std::upper_bound(

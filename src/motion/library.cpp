@@ -44,6 +44,7 @@ std::uint64_t hash_of(const std::vector<Action>& actions) {
     }
     if (action.feint) hasher.add(action.feint->of).add(action.feint->parted);
     hasher.add(action.starts_lying).add(action.ends_lying);
+    for (const std::string& word : action.leads_to) hasher.add(word);
     if (action.connects) hasher.add(action.connects);
     if (action.left_out) hasher.add(action.left_out);
     if (action.stance != Stance::orthodox) hasher.add(action.stance);

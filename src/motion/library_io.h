@@ -14,7 +14,7 @@
 
 namespace ringcraft {
 
-inline constexpr std::uint32_t kLibraryVersion = 1;
+inline constexpr std::uint32_t kLibraryVersion = 2;
 
 std::string library_bytes(const MotionLibrary& library);
 

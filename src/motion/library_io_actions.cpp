@@ -9,6 +9,7 @@ namespace ringcraft {
 namespace {
 
 constexpr std::size_t kFrameBytes = (3 + 4 * kJointCount + 3) * sizeof(float) + 1;
+constexpr std::size_t kTextBytes = sizeof(std::uint32_t);  // of an empty one
 constexpr std::size_t kStrikeBytes = 3 + 2 * sizeof(Tick) + sizeof(std::uint32_t) + 8;
 
 void put_strike(BytesOut& out, const Strike& strike) {
@@ -94,6 +95,8 @@ void put_action(BytesOut& out, const Action& action) {
   if (action.response) put_response(out, *action.response);
   out.put(action.starts_lying);
   out.put(action.ends_lying);
+  out.put_count(action.leads_to.size());
+  for (const std::string& word : action.leads_to) out.put_text(word);
   out.put_text(action.source);
 }
 
@@ -113,6 +116,9 @@ Action get_action(BytesIn& in) {
   if (in.get_flag()) action.response = get_response(in);
   action.starts_lying = in.get(Lying::seat);
   action.ends_lying = in.get(Lying::seat);
+  const std::size_t words = in.get_count(kTextBytes);
+  action.leads_to.reserve(words);
+  for (std::size_t i = 0; i < words && in.ok(); ++i) action.leads_to.push_back(in.get_text());
   action.source = in.get_text();
   return action;
 }

@@ -28,7 +28,7 @@ bool edge_allowed(const Action& from, const Action& to, float distance,
   if (from.ends_lying != Lying::none) {  // only a get-up follows a fall, whatever way it lies
     return to.kind == Kind::get_up;
   }
-  if (!launchable(to)) return false;
+  if (!launchable(to) || !may_lead(from, to)) return false;
   return distance <= (launchable(from) ? settings.threshold : settings.response_threshold);
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 // The action state machine: which action can follow which, and how the second is placed.
 //
-// An edge stands only where the end of one action is near the start of another: the point clouds of
+// An edge stands only where an action may lead to another (Action::leads_to) and its end is near
+// the other's start: the point clouds of
 // joints over a window of 5 ticks, aligned on the floor in closed form (Kovar, Gleicher, Pighin
 // 2002, eq. 2-4), differ by less than a threshold. Where there is no edge, the shortest path leads
 // over transitions. Stitching is by inertialization (playback.h), so an edge itself takes no time.

@@ -146,6 +146,7 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   measure_self_penetration(body, action, m);
   m.still_hands = still_hands(skeleton, action);
   m.head_moves_m = head_moves(skeleton, action);
+  m.may_lead_to = action.leads_to;
   m.source = action.source;
   return m;
 }

@@ -35,6 +35,7 @@ struct ActionMeasures {
   double still_hands = 0;    // share of the time of both wrists slower than 0.15 m/s in the world
   double head_moves_m = 0;   // farthest from where it began, in the root's frame
   std::size_t leads_to = 0;  // direct edges
+  std::vector<std::string> may_lead_to;  // what its sheet says of that (action.h)
   std::string source;
 };
 

@@ -70,6 +70,35 @@ TEST_F(Manifest, ASheetPatternThatMatchesNothingIsAnError) {
   EXPECT_THAT(actions.error().what, HasSubstr("none/*.toml"));
 }
 
+TEST_F(Manifest, WhereASheetSaysThatAnActionLeadsIsHeldAgainstThePoses) {
+  for (const char* sheet : {"guard.toml", "falls.toml"}) {
+    std::filesystem::copy(assets_folder() / "kickboxing" / "sheets" / sheet, folder_.path());
+  }
+  const auto built = [&](const std::string& leads_to) {
+    std::ofstream(folder_.path() / "library.toml")
+        << "name = \"test\"\nsheets = [\"guard.toml\", \"falls.toml\", \"mine.toml\"]\n";
+    std::ofstream(folder_.path() / "mine.toml")
+        << "poses = \"guard.toml\"\n[[action]]\nname = \"sway\"\nkind = \"defense\"\nlength = 0.5\n"
+           "leads_to = "
+        << leads_to << "\n";
+    return build_library(folder_.path() / "library.toml");
+  };
+  const auto sound =
+      built("[\"idle_*\", \"attack\"]");  // a kind that there is none of may be named
+  ASSERT_TRUE(sound) << to_string(sound.error());
+  const ActionId sway = sound->find("sway");
+  ASSERT_TRUE(sway.valid());
+  EXPECT_EQ(sound->machine().edge(sway, sway), nullptr);
+  EXPECT_FALSE(sound->machine().edges(sway).empty());
+  const auto unknown = built("[\"idle_*\", \"jabb\"]");
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(to_string(unknown.error()),
+              HasSubstr("mine.toml: sway: leads to 'jabb', and no action"));
+  const auto far = built("[\"idle_*\", \"get_up_*\"]");
+  ASSERT_FALSE(far);
+  EXPECT_THAT(to_string(far.error()), HasSubstr("cm from where it ends"));
+}
+
 TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
   if (!std::filesystem::exists(kBoxing)) GTEST_SKIP() << "no captures";
   const std::vector<std::pair<std::string, std::string>> bad = {

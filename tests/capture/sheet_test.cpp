@@ -98,6 +98,24 @@ TEST(Sheet, WhatIsReadIsWhatTheHeaderSays) {
   }
 }
 
+TEST(Sheet, WhatFollowsIsSaidByTheActionOrElseByTheFile) {
+  const auto result = compile_sheet_text(
+      "poses = \"guard.toml\"\nleads_to = [\"jab*\", \"idle\"]\n[[action]]\nname = \"a\"\nkind = "
+      "\"idle\"\nlength = 0.5\n[[action]]\nname = \"b\"\nkind = \"idle\"\nlength = 0.5\nleads_to = "
+      "[\"step_left\"]\n",
+      sheets_folder() / "test.toml");
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_EQ(result->at(0).leads_to, (std::vector<std::string>{"jab*", "idle"}));
+  EXPECT_EQ(result->at(1).leads_to, (std::vector<std::string>{"step_left"}));
+  EXPECT_EQ(mirrored(result->at(1)).leads_to, (std::vector<std::string>{"step_right"}));
+  EXPECT_FALSE(compiled("name = \"a\"\nkind = \"idle\"\nlength = 0.5\nleads_to = [\"[\"]\n"));
+  for (const auto& file : sheet_files()) {
+    const auto actions = compile_sheet_file(file);
+    ASSERT_TRUE(actions);
+    for (const Action& action : *actions) EXPECT_FALSE(action.leads_to.empty()) << action.name;
+  }
+}
+
 TEST(Sheet, TheSameSheetGivesTheSameBits) {
   for (const char* name : {"punches.toml", "falls.toml"}) {
     const auto a = compile_sheet_file(sheets_folder() / name);

@@ -33,6 +33,7 @@ MotionLibrary sample() {
   actions[2].defense = Defense{DefenseKind::slip, 2, 9};
   actions[4].response =
       Response{ResponseKind::recovery_steps, 2, 1.5f, std::optional(TargetZone::body)};
+  actions[1].leads_to = {"idle", "gu*"};
   const MotionLibrary built("sample", std::move(actions));
   MotionGraph graph;
   graph.clips = {{"idle", 20}, {"jab_left", 24}};
@@ -73,6 +74,7 @@ void expect_equal(const Action& a, const Action& b) {
   EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.connects, b.connects);
   EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.leads_to, b.leads_to);
   EXPECT_EQ(a.starts_lying, b.starts_lying);
   EXPECT_EQ(a.ends_lying, b.ends_lying);
   ASSERT_EQ(a.strikes.size(), b.strikes.size());

@@ -125,6 +125,25 @@ TEST(StateMachine, APathLeadsOverTransitionsAndCountsTheirTicks) {
   EXPECT_THAT(again->via, ElementsAre(ActionId(3)));
 }
 
+TEST(StateMachine, AnActionLeadsToWhatItSaysAndToTheRestOverThat) {
+  std::vector<Action> actions = {guard_idle(),
+                                 action_of("kick", Kind::attack, test::kick_clip(kSkeleton)),
+                                 action_of("jab", Kind::attack, test::jab_clip(kSkeleton)),
+                                 action_of("slip", Kind::defense, test::idle_clip(kSkeleton))};
+  actions[1].leads_to = {"defense", "j*", "idle"};
+  const StateMachine machine(kSkeleton, actions, {});
+  EXPECT_THAT(machine.edges(ActionId(0)), SizeIs(4));  // nothing said: whatever begins there
+  EXPECT_THAT(machine.edges(ActionId(1)), SizeIs(3));
+  EXPECT_EQ(machine.edge(ActionId(1), ActionId(1)), nullptr);
+  EXPECT_NE(machine.edge(ActionId(1), ActionId(2)), nullptr);
+  EXPECT_NE(machine.edge(ActionId(1), ActionId(3)), nullptr);
+  const Path* again = machine.path(ActionId(1), ActionId(1));
+  ASSERT_NE(again, nullptr);
+  EXPECT_THAT(again->via, ElementsAre(ActionId(0)));
+  actions[1].leads_to = {"jab"};  // from which a path may not lead on
+  EXPECT_THAT(unconnected(kSkeleton, actions, {}), ElementsAre(ActionId(1)));
+}
+
 TEST(StateMachine, ResponsesAreNoTargetsAndOnlyGetUpsFollowFalls) {
   const std::vector<Action> actions = {
       guard_idle(), action_of("stagger", Kind::response, between(kGuard, kGuard)),
