@@ -10,7 +10,9 @@ const [, ...events] = readFileSync(path.join(folder, 'events.jsonl'), 'utf8')
 
 const sum = (key) => report.fighters.reduce((total, fighter) => total + fighter[key], 0);
 const { planner, physics, quality } = report;
-const answered = events.filter((e) => e.type === 'response' && e.response !== 'absorb').length;
+const answered = events.filter(
+  (e) => e.type === 'knockdown' || (e.type === 'response' && e.response !== 'absorb'),
+).length;
 
 const checks = [
   ['strikes', sum('strikes'), (n) => n >= 8, 'at least 8'],
