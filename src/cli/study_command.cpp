@@ -125,25 +125,31 @@ Result<Pairing> style_pairing(const std::string& name, LeafValue leaf) {
   return pairing;
 }
 
+// The library that the study is of: the one asked for, or the scene's; in the paper's manner where
+// that is asked.
+Result<MotionLibrary> studied_library(const SceneFile& scene, const StudyOptions& options) {
+  auto library = library_of(scene, options.library.value_or(scene.library));
+  if (!library || options.slow <= 1) return library;
+  return slowed_library(*library, options.slow);
+}
+
 // Runs the pairings and writes the study.
 int finish_pairings(Study study, const std::vector<Pairing>& pairings, const BoutSeries& series,
                     const StudyOptions& options, const CommonOptions& common) {
   StudyOptions of_scene;  // bodies, health and planner are those of the default scene
   const auto scene = scene_of(of_scene, common);
   if (!scene) return fail(scene.error());
-  auto library = library_of(*scene, options.library);
-  if (!library) return fail(library.error());
-  const MotionLibrary used =
-      options.slow > 1 ? slowed_library(*library, options.slow) : std::move(*library);
+  const auto used = studied_library(*scene, options);
+  if (!used) return fail(used.error());
   const StudyRun run = study_run(common);
-  const std::vector<PairingResult> results = run_pairings(used, *scene, pairings, series, run);
+  const std::vector<PairingResult> results = run_pairings(*used, *scene, pairings, series, run);
   fill_bouts(study, results);
   study.interrupted = run.stopped();
   study.said.push_back(fmt::format(
       "{} bouts of {:.0f} s a pairing at most, every second one with the sides swapped; ring "
       "{:.0f} m, seed {}, library {} ({} actions, mean length {:.2f} s), node limit {}.",
-      series.bouts, series.duration_s, series.ring_m, scene->seed, used.name(),
-      used.actions().size(), mean_choice_seconds(used), scene->planner.node_limit));
+      series.bouts, series.duration_s, series.ring_m, scene->seed, used->name(),
+      used->actions().size(), mean_choice_seconds(*used), scene->planner.node_limit));
   study.said.emplace_back(
       "A knockout wins, else more damage; a lead of 1 point or less is a draw and no win. "
       "Intervals: Wilson, 95 %. First side a, second side b.");
@@ -182,7 +188,7 @@ int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  const auto library = library_of(*scene);
+  const auto library = studied_library(*scene, study);
   if (!library) return fail(library.error());
   const StudyRun run = study_run(options);
   return finish_study(penetration_study(*library, *scene, {}, run), 0, options);
@@ -191,7 +197,7 @@ int run_penetration_study(const StudyOptions& study, const CommonOptions& option
 int run_search_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  const auto library = library_of(*scene);
+  const auto library = studied_library(*scene, study);
   if (!library) return fail(library.error());
   const StudyRun run = study_run(options);
   SearchStudy search;
@@ -206,20 +212,18 @@ int run_search_study(const StudyOptions& study, const CommonOptions& options) {
 int run_cost_study(const StudyOptions& study, const CommonOptions& options) {
   const auto scene = scene_of(study, options);
   if (!scene) return fail(scene.error());
-  const auto library = library_of(*scene);
+  const auto library = studied_library(*scene, study);
   if (!library) return fail(library.error());
   CostStudy cost;
   if (study.count) cost.decisions = static_cast<std::size_t>(*study.count);
-  const Study found = study.slow > 1 ? cost_study(slowed_library(*library, study.slow), *scene,
-                                                  cost, study_run(options))
-                                     : cost_study(*library, *scene, cost, study_run(options));
+  const Study found = cost_study(*library, *scene, cost, study_run(options));
   const int code = finish_study(found, 0, options);
   if (!options.json) fmt::print("{}", study_text(found.timing));
   return code;
 }
 
 int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
-  const auto library = load_library(study.library);
+  const auto library = load_library(study.library.value_or("kickboxing"));
   if (!library) return fail(library.error());
   const auto spec = body_named(study.body);
   if (!spec) return fail(spec.error());

@@ -17,7 +17,7 @@ namespace ringcraft {
 // What the studies understand besides the common options; each says which it uses.
 struct StudyOptions {
   std::vector<std::string> what = {};  // SCENE, or the two motions of `clips`
-  std::string library = "kickboxing";
+  std::optional<std::string> library;  // otherwise the scene's, or kickboxing
   std::string body = "middleweight";
   std::optional<int> bouts;
   std::optional<int> count;  // of random hits

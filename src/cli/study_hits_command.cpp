@@ -7,7 +7,7 @@
 namespace ringcraft {
 
 int run_hits_study(const StudyOptions& study, const CommonOptions& options) {
-  const auto library = load_library(study.library);
+  const auto library = load_library(study.library.value_or("kickboxing"));
   if (!library) return fail(library.error());
   HitsSettings settings;
   if (study.count) settings.count = *study.count;

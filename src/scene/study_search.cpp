@@ -11,6 +11,7 @@
 #include "planner/search_cost.h"
 #include "planner/tally.h"
 #include "scene/moments.h"
+#include "scene/study_slowed.h"
 
 namespace ringcraft {
 namespace {
@@ -223,9 +224,11 @@ Study search_study(const MotionLibrary& library, const SceneFile& scene, const S
   }
   study.interrupted = run.stopped();
   study.said = {fmt::format(
-      "{} decisions of {} bouts, seeds from {} on. Trees, medians: {:.2f} children a decision, "
+      "{} decisions of {} bouts, seeds from {} on; library {} ({} actions, mean length {:.2f} s). "
+      "Trees, medians: {:.2f} children a decision, "
       "{:.2f} decisions deep, {:.0f} leaves; minimal tree {:.0f} leaves ({} dives each).",
-      branching.size(), bouts.size(), scene.seed, quantile(branching, 0.5), quantile(depth, 0.5),
+      branching.size(), bouts.size(), scene.seed, library.name(), library.actions().size(),
+      mean_choice_seconds(library), quantile(branching, 0.5), quantile(depth, 0.5),
       quantile(whole, 0.5), quantile(minimal, 0.5), search.dives)};
   return study;
 }
