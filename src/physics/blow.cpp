@@ -256,4 +256,12 @@ Blow blow_of_fall(const BodyModel& faller, const Pose& faller_pose, const BodyMo
                    {kFallingTone, .3f, faller.spec.mass});
 }
 
+// The two part at e v along the line, and the striker has lost J / m.
+Vec3 struck_velocity(const Blow& blow) {
+  if (blow.effective_mass <= 0) return {};
+  const float given = glm::length(blow.impulse) / (blow.blocked ? kBlockShare : 1.0f);
+  const float speed = (1 + kRestitution) * blow.speed - given / blow.effective_mass;
+  return normalized_or(blow.impulse, Vec3{}) * std::max(0.0f, speed);
+}
+
 }  // namespace ringcraft

@@ -56,6 +56,9 @@ Blow blow_of(const Contact& contact, StrikeKind kind, float striker, float struc
 Blow blow_of_fall(const BodyModel& faller, const Pose& faller_pose, const BodyModel& target,
                   const Pose& target_pose, const Contact& contact);
 
+// What the blow alone gives the part that it meets, m/s, as if nothing held it.
+Vec3 struck_velocity(const Blow& blow);
+
 // What the impulse step starts from.
 struct ImpactInput {
   Pose pose;                        // world, at the contact

@@ -397,6 +397,9 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   event.fatigue = static_cast<float>(standing_[attacker.at()].condition.fatigue());
   note_foreseen(event);
   record_.timeline.events.push_back(event);
+  if (!cuts && is_guard_part(blow.part)) {
+    stage_.drive_back(target, blow.part, struck_velocity(blow));
+  }
   if (!cuts || fighter(target).down()) return;
   respond(target, input, outcome, event);
   standing_[target.at()].fell_upon = 1u << attacker.at();  // whose own blow still presses on

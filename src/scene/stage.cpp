@@ -46,25 +46,7 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
   for (BodyModel& body : bodies) {
     const MotionLibrary& own = library.of(FighterId(actors_.size()));
     Playback playback(body.skeleton);
-    Actor actor{&own,
-                std::move(body),
-                std::move(playback),
-                {},
-                {},
-                {},
-                {},
-                {},
-                0,
-                false,
-                false,
-                {},
-                {},
-                {},
-                {},
-                {},
-                {},
-                {}};
-    actors_.push_back(std::move(actor));
+    actors_.push_back(Actor{&own, std::move(body), std::move(playback)});
   }
 }
 
@@ -114,9 +96,26 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
   actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
+  actor.gives = {};
   if (actor.simulated.empty()) {
     actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
   }
+}
+
+void Stage::drive_back(FighterId fighter, Part part, Vec3 velocity) {
+  actors_[fighter.at()].gives[static_cast<std::size_t>(guarding_side(part))].drive(velocity);
+}
+
+// The pose of the next tick with its arms where blows have driven them.
+Pose Stage::given_way(const Actor& actor, std::array<ArmGive, 2>& gives, const Pose& pose) {
+  LimbOffsets offsets{};
+  for (const Side side : {Side::left, Side::right}) {
+    const auto i = static_cast<std::size_t>(side);
+    gives[i].step();
+    if (gives[i].at_rest()) continue;
+    offsets[i] = short_of_the_body(actor.body, pose, side, gives[i].offset());
+  }
+  return with_offsets(actor.body, pose, offsets);
 }
 
 void Stage::shift(FighterId fighter, Vec3 offset) {
@@ -146,7 +145,7 @@ void Stage::show(Tick tick) {
       actor.was_simulated = false;
       actor.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
     }
-    actor.unhindered = actor.playback.shown();
+    actor.unhindered = given_way(actor, actor.gives, actor.playback.shown());
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     amend(actor, actor.kept_out);
@@ -214,6 +213,7 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
   const Actor& actor = actors_[fighter.at()];
   const Clip& clip = library_.action(actor.launch.action).clip;
   Playback ahead = actor.playback;
+  std::array<ArmGive, 2> gives = actor.gives;
   std::vector<Pose> poses{actor.playback.shown()};
   for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
     const auto at = static_cast<std::size_t>(next - actor.simulated_from);
@@ -222,7 +222,7 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
     } else {
       const Pose& pose =
           ahead.next(clip_pose(actor, next), clip.contacts_at(clip_age(actor, next)));
-      poses.push_back(with_offsets(actor.body, pose, actor.kept_out));
+      poses.push_back(with_offsets(actor.body, given_way(actor, gives, pose), actor.kept_out));
     }
   }
   return poses;

@@ -100,6 +100,10 @@ TEST_F(BlowOf, ImpulseGrowsWithSpeedAndABlockPassesOnLess) {
   c.blocked = true;
   const Blow blocked = blow_of(body, attacker, body, target, c, StrikeKind::straight);
   EXPECT_LT(glm::length(blocked.impulse), .6f * glm::length(fast.impulse));
+  // Guard or not, the part itself is struck as hard: faster than the striker goes on, by e v.
+  const float left = blocked.speed - 2 * glm::length(blocked.impulse) / blocked.effective_mass;
+  EXPECT_NEAR(glm::length(struck_velocity(blocked)), left + .1f * blocked.speed, 1e-3f);
+  EXPECT_NEAR(glm::length(struck_velocity(fast)), glm::length(struck_velocity(blocked)), 1e-3f);
 }
 
 TEST(Damage, CleanBlowsCostWhatIsExpectedOfThem) {

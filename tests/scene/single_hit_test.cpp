@@ -209,5 +209,27 @@ TEST(SingleHit, UnknownNamesAndTimesOutsideAreUsageErrors) {
   }
 }
 
+TEST(SingleHit, AGuardThatHoldsGivesWayAndSpringsBack) {
+  HitQuery hit = query("parry_left", 0.3);
+  hit.strike = "cross";
+  hit.part = Part::left_hand;
+  const auto answer = simulate_hit(default_library(), hit);
+  ASSERT_TRUE(answer) << to_string(answer.error());
+  ASSERT_TRUE(answer->input.blow.blocked);
+  const std::vector<Pose>& frames = answer->timeline.tracks.front().frames;
+  const Vec3 line = glm::normalize(answer->input.blow.impulse);
+  const auto gone = [&](Joint hand, Tick after) {
+    const auto place = [&](Tick tick) {
+      const WorldPose world =
+          world_pose(answer->bodies.front().skeleton, frames[static_cast<std::size_t>(tick)]);
+      return glm::dot(world.position[index(hand)] - world.position[index(Joint::chest)], line);
+    };
+    return place(answer->hit_tick + after) - place(answer->hit_tick);
+  };
+  EXPECT_GT(gone(Joint::left_hand, 5), .03f);
+  EXPECT_LT(std::abs(gone(Joint::right_hand, 5)), .02f);
+  EXPECT_LT(gone(Joint::left_hand, 30), .5f * gone(Joint::left_hand, 5));
+}
+
 }  // namespace
 }  // namespace ringcraft
