@@ -10,10 +10,10 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kRate = 25;      // 1/s
-constexpr float kMost = .10f;    // m
-constexpr float kSoft = .01f;    // m: so far a glove is pressed in
-constexpr float kRests = 1e-4f;  // m, and m a tick: less is not seen
+constexpr float kSpringRate = 25;  // 1/s
+constexpr float kMost = .10f;      // m
+constexpr float kSoft = .01f;      // m: so far a glove is pressed in
+constexpr float kRests = 1e-4f;    // m, and m a tick: less is not seen
 
 // How deep the glove, moved by `offset`, is in the head or the trunk, m.
 float depth_in_body(const BodyCapsules& parts, Part glove, Vec3 offset) {
@@ -31,7 +31,7 @@ float depth_in_body(const BodyCapsules& parts, Part glove, Vec3 offset) {
 }  // namespace
 
 void ArmGive::drive(Vec3 velocity) {
-  constexpr float kMostSpeed = kMost * kRate * std::numbers::e_v<float>;
+  constexpr float kMostSpeed = kMost * kSpringRate * std::numbers::e_v<float>;
   velocity_ += velocity;
   const float speed = glm::length(velocity_);
   if (speed > kMostSpeed) velocity_ *= kMostSpeed / speed;
@@ -39,10 +39,10 @@ void ArmGive::drive(Vec3 velocity) {
 
 void ArmGive::step() {
   if (at_rest()) return;
-  const float fade = std::exp(-kRate * kTickSeconds);
-  const Vec3 slope = velocity_ + kRate * offset_;
+  const float fade = std::exp(-kSpringRate * kTickSeconds);
+  const Vec3 slope = velocity_ + kSpringRate * offset_;
   offset_ = (offset_ + slope * kTickSeconds) * fade;
-  velocity_ = (velocity_ - kRate * kTickSeconds * slope) * fade;
+  velocity_ = (velocity_ - kSpringRate * kTickSeconds * slope) * fade;
   if (glm::length(offset_) < kRests && glm::length(velocity_) * kTickSeconds < kRests) *this = {};
 }
 

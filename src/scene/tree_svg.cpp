@@ -13,7 +13,7 @@ namespace {
 
 // Pixels.
 constexpr double kColumn = 30, kStubColumn = 14;
-constexpr double kLeft = 70, kTop = 150, kRight = 40;
+constexpr double kTreeLeft = 70, kTreeTop = 150, kTreeRight = 40;
 constexpr double kPerSecond = 330;   // of the time axis, where no edge needs more
 constexpr double kLetter = 5.0;      // width of a letter at 9 px
 constexpr double kAroundLabel = 30;  // circles and values at both ends of an edge
@@ -82,15 +82,15 @@ class TreePicture {
   explicit TreePicture(const SceneTree& of) : of_(of), tree_(of.tree), drawn_(tree_.nodes.size()) {
     select();
     scale();
-    skyline_.assign(static_cast<std::size_t>(lowest_ / kBand) + 1, kLeft);
+    skyline_.assign(static_cast<std::size_t>(lowest_ / kBand) + 1, kTreeLeft);
     place(0);
   }
 
   std::string svg() {
-    const double right = std::max(kLeastWidth, next_x_ + kRight);
+    const double right = std::max(kLeastWidth, next_x_ + kTreeRight);
     const double bottom = lowest_ + 12;
     body_.clear();
-    axis(right - kRight);
+    axis(right - kTreeRight);
     for (const Drawn& one : drawn_) stubs(one);
     for (const bool principal : {false, true}) {
       for (std::size_t id = 1; id < drawn_.size(); ++id) {
@@ -140,7 +140,7 @@ class TreePicture {
 
   std::size_t band(double y) {
     const auto i = static_cast<std::size_t>(std::max(0.0, y) / kBand);
-    if (i >= skyline_.size()) skyline_.resize(i + 1, kLeft);
+    if (i >= skyline_.size()) skyline_.resize(i + 1, kTreeLeft);
     return i;
   }
   // The left end of a strip `width` wide, right of all that stands between y0 and y1.
@@ -204,7 +204,7 @@ class TreePicture {
     std::vector<Span> spans;
     for (std::size_t id = 0; id < drawn_.size(); ++id) {
       if (!drawn_[id].shown) continue;
-      y_[drawn_[id].moment] = kTop;
+      y_[drawn_[id].moment] = kTreeTop;
       if (id == 0) continue;
       const TreeEdge& edge = at(id).edge;
       std::size_t letters = action_label(edge).size();
@@ -212,7 +212,7 @@ class TreePicture {
       spans.push_back({drawn_[static_cast<std::size_t>(at(id).parent)].moment, drawn_[id].moment,
                        kLetter * static_cast<double>(letters) + kAroundLabel});
     }
-    double y = kTop;
+    double y = kTreeTop;
     const Instant* before = nullptr;
     for (auto& [moment, place] : y_) {
       if (before != nullptr) y += kPerSecond * seconds(moment.tick - before->tick);
@@ -228,7 +228,7 @@ class TreePicture {
 
   double y_at(Tick tick) const {
     auto after = y_.upper_bound({tick, 1 << 20});
-    if (after == y_.begin()) return kTop;
+    if (after == y_.begin()) return kTreeTop;
     const auto before = std::prev(after);
     if (after == y_.end() || before->first.tick == tick) {
       return y_.lower_bound({std::min(tick, before->first.tick), 0})->second;
@@ -253,7 +253,7 @@ class TreePicture {
     const Tick end = tree_.start + tree_.horizon;
     const double foot = y_.rbegin()->second;
     body_ += fmt::format("<path d='M{0:.1f},{1:.1f}V{2:.1f}' stroke='#444' fill='none'/>\n",
-                         kLeft - 14, kTop, foot);
+                         kTreeLeft - 14, kTreeTop, foot);
     constexpr Tick kEvery = 30;
     const Tick first = (tree_.start + kEvery - 1) / kEvery * kEvery;
     std::vector<Tick> marks;
@@ -261,16 +261,16 @@ class TreePicture {
     for (const Tick tick : marks) {
       const double y = y_at(tick);
       body_ += fmt::format("<path d='M{:.1f},{:.1f}H{:.1f}' stroke='#e4e7ea' fill='none'/>\n",
-                           kLeft - 18, y, right);
-      if (y - kTop < 12 || foot - y < 12) continue;
-      text(kLeft - 22, y + 3, fmt::format("{:.2f} s", seconds(tick)), "text-anchor='end'");
+                           kTreeLeft - 18, y, right);
+      if (y - kTreeTop < 12 || foot - y < 12) continue;
+      text(kTreeLeft - 22, y + 3, fmt::format("{:.2f} s", seconds(tick)), "text-anchor='end'");
     }
     const auto bold = "text-anchor='end' font-weight='bold'";
-    text(kLeft - 22, kTop + 3, fmt::format("{:.3f} s", seconds(tree_.start)), bold);
-    text(kLeft - 22, foot + 3, fmt::format("{:.3f} s", seconds(end)), bold);
+    text(kTreeLeft - 22, kTreeTop + 3, fmt::format("{:.3f} s", seconds(tree_.start)), bold);
+    text(kTreeLeft - 22, foot + 3, fmt::format("{:.3f} s", seconds(end)), bold);
     body_ += fmt::format(
         "<path d='M{:.1f},{:.1f}H{:.1f}' stroke='#444' stroke-dasharray='2,3' fill='none'/>\n",
-        kLeft - 18, foot, right);
+        kTreeLeft - 18, foot, right);
   }
 
   void event(const TreeEvent& one, double x, double y0, double y1, const TreeEdge& edge) {
@@ -349,12 +349,12 @@ class TreePicture {
   void legend() {
     const TreeNode& root = at(0);
     const std::string planner = of_.name(tree_.fighter), other = of_.name(tree_.opponent);
-    text(kLeft - 14, 24,
+    text(kTreeLeft - 14, 24,
          fmt::format("{}: {} decides at {:.3f} s, {:.2f} s ahead, value {} points", of_.scene,
                      planner, seconds(tree_.start), seconds(tree_.horizon),
                      signed_points(root.value)),
          "font-size='15' font-weight='bold'");
-    text(kLeft - 14, 41,
+    text(kTreeLeft - 14, 41,
          fmt::format("Style {}, leaf {}. Values: points for {} on the best line, by minimax. Time "
                      "runs downward, stretched where an edge is shorter than its name.",
                      of_.style, of_.leaf == LeafValue::paper ? "S_A - S_B" : "weighted", planner),
@@ -366,9 +366,9 @@ class TreePicture {
           "expanded further, but have the value of a search to the horizon.",
           shown_, drawn_.size(), tree_.unexpanded);
     }
-    text(kLeft - 14, 57, left, "font-size='11'");
+    text(kTreeLeft - 14, 57, left, "font-size='11'");
     const double y = 80;
-    double x = kLeft - 8;
+    double x = kTreeLeft - 8;
     const auto entry = [&](const std::string& shape, double width, const std::string& what) {
       body_ += fmt::format("<g transform='translate({:.1f} {:.1f})'>{}</g>\n", x, row_, shape);
       text(x + width, row_ + 3.5, what, "font-size='10.5'");
@@ -393,7 +393,7 @@ class TreePicture {
     entry("<path d='M0,-5l5,5l-5,5l-5,-5z' fill='#b7791f'/>", 9, "block");
     entry("<path d='M0,-5l5,5l-5,5l-5,-5z' fill='#2f855a'/>", 9, "evaded");
     row_ = y + 20;
-    x = kLeft - 8;
+    x = kTreeLeft - 8;
     entry(line(kPlannerInk, ""), 23, "action of " + planner);
     entry(line(kOpponentInk, ""), 23, "of " + other);
     entry(line(kForcedInk, "stroke-dasharray='5,3'"), 23, "response, get-up or rest of a path");
@@ -408,7 +408,7 @@ class TreePicture {
   std::map<Instant, double> y_;
   std::vector<double> skyline_;  // by bands of y: where the next column may begin
   std::size_t shown_ = 0;
-  double next_x_ = kLeft, lowest_ = 0, row_ = 0;
+  double next_x_ = kTreeLeft, lowest_ = 0, row_ = 0;
   std::string body_;
 };
 
