@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "motion/strike_fit.h"
 #include "planner/root_search.h"
 #include "scene/placed_strike.h"
 #include "scene/study_hits_rows.h"
@@ -53,12 +54,21 @@ Part aimed_at(const Strike& strike) {
   return Part::head;
 }
 
-// A body that stands upright with its arms hanging, as a dummy does; faces +Z.
-Pose dummy_pose(const BodyModel& body) {
-  Pose pose = rest_pose(body.skeleton);
+// A body that stands as the library's fighters do, since that is what their blows aim at, with its
+// arms hanging, as a dummy has none; faces +Z.
+Pose dummy_pose(const MotionLibrary& library, const BodyModel& body) {
+  const Pose* guard = standing_guard(library);
+  Pose pose = guard == nullptr ? rest_pose(body.skeleton) : scaled(*guard, body.scale);
   for (const Side side : {Side::left, Side::right}) {
+    const Limb limb = arm(side);
+    pose.rotation[index(limb.middle)] = pose.rotation[index(limb.end)] = Quat(1, 0, 0, 0);
     const Vec3 out = side == Side::left ? kLeft : -kLeft;
-    pose.rotation[index(arm(side).root)] = rotation_between(out, .15f * out - kUp);
+    const WorldPose world = world_pose(body.skeleton, pose);
+    const Quat shoulder =
+        world.rotation[index(limb.root)] * glm::inverse(pose.rotation[index(limb.root)]);
+    const Vec3 outward = shoulder * out;
+    const Vec3 down = .15f * Vec3{outward.x, 0, outward.z} - kUp;
+    pose.rotation[index(limb.root)] = rotation_between(out, glm::inverse(shoulder) * down);
   }
   return pose;
 }
@@ -99,7 +109,7 @@ std::optional<Landed> landed(const MotionLibrary& library, ActionId attack) {
   const Strike& strike = action.strikes.front();
   const BodyModel body = make_body({});
   ImpactInput input;
-  input.pose = dummy_pose(body);
+  input.pose = dummy_pose(library, body);
   const BodyCapsules dummy = capsules(body, world_pose(body.skeleton, input.pose));
   const Part aim = aimed_at(strike);
   std::optional<Landed> best;
