@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/quantile.h"
 #include "capture/retarget.h"
 #include "motion/ik.h"
 #include "motion/smooth.h"
@@ -29,20 +30,12 @@ constexpr std::size_t at(Side side) {
   return static_cast<std::size_t>(side);
 }
 
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The height under which a twentieth of the path lies, m.
 float lowest_twentieth(const std::vector<Vec3>& path) {
   std::vector<float> heights;
   heights.reserve(path.size());
   for (const Vec3& p : path) heights.push_back(p.y);
-  const auto low = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-  std::nth_element(heights.begin(), low, heights.end());
-  return *low;
+  return quantile(std::move(heights), 0.05);
 }
 
 struct LevelPlant {
@@ -281,9 +274,7 @@ void stand_on_floor(const Skeleton& skeleton, CapturedFeet& feet, Clip& clip) {
     }
   }
   // Without contacts (a clip in the air) the lowest twentieth stands for the floor.
-  const auto low = all.begin() + static_cast<std::ptrdiff_t>(all.size() - 1 - all.size() / 20);
-  std::nth_element(all.begin(), low, all.end());
-  const float mean = both.empty() ? *low : median(both);
+  const float mean = both.empty() ? quantile(std::move(all), 0.95) : median(both);
   for (Pose& pose : clip.frames) pose.hips.y += mean;
   for (std::size_t s = 0; s < 2; ++s) {
     // Toward its lowest plants: the swings between the higher ones stay as free of the floor as

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/quantile.h"
 #include "base/random.h"
 #include "capture/filmstrip.h"
 #include "capture/library_file.h"
@@ -55,13 +56,6 @@ struct FamilyFigures {
     for (const auto& [why, times] : other.refused) refused[why] += times;
   }
 };
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const double at = share * static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(at))];
-}
 
 // The first words of a refusal, without its figures.
 std::string reason_of(const std::string& wrong) {

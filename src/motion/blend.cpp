@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kNothing = 1e-4f;        // a weight that is none
 constexpr std::size_t kShortestRun = 6;  // ticks a foot is planted or lifted at least
-constexpr float kStraightest = 0.985f;   // of a leg's length, unless the repetitions' reach more
+constexpr float kStraightLeg = 0.985f;   // of a leg's length, unless the repetitions' reach more
 constexpr float kSinkSmooth = 0.06f;     // s
 constexpr float kThere = 1e-5f;          // m: nearer needs no inverse kinematics
 constexpr std::size_t kFeet = 2;
@@ -149,7 +149,7 @@ std::vector<float> sinks(const Skeleton& skeleton, const Clip& clip,
       const Vec3 hip = world.position[index(limb.root)];
       const Vec3 down = hip - ankle_of(skeleton, feet[f], side_at(f), i);
       const float length =
-          skeleton.leg_length() * std::max(kStraightest, feet[f].reach[i] + kThere);
+          skeleton.leg_length() * std::max(kStraightLeg, feet[f].reach[i] + kThere);
       const float flat = std::min(length, std::hypot(down.x, down.z));
       sink[i] = std::max(sink[i], down.y - std::sqrt(length * length - flat * flat));
     }
@@ -170,7 +170,7 @@ void place_feet(const Skeleton& skeleton, std::array<FootTrack, kFeet>& feet, Cl
       const Vec3 ankle = ankle_of(skeleton, feet[f], side_at(f), i);
       const Vec3 there = world_pose(skeleton, pose).position[index(limb.end)];
       if (glm::distance(there, ankle) > kThere)
-        move_limb_end(skeleton, limb, ankle, std::max(kStraightest, feet[f].reach[i]), pose);
+        move_limb_end(skeleton, limb, ankle, std::max(kStraightLeg, feet[f].reach[i]), pose);
       set_world_rotation(skeleton, limb.end, feet[f].rotation[i], pose);
     }
   }

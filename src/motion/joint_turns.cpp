@@ -8,11 +8,6 @@
 namespace ringcraft {
 namespace {
 
-float smooth(float t) {
-  t = std::clamp(t, 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 Quat as_left(Side side, Quat q) {
   return side == Side::left ? q : Quat(q.w, q.x, -q.y, -q.z);
 }
@@ -54,7 +49,8 @@ float flexion(const Skeleton& skeleton, const Limb& limb, Quat rotation) {
 
 float slowed(float angle, const Free& free, float from, float most) {
   constexpr float kLeastRoom = radians(4);
-  const float fading = glm::mix(std::max(free.seam, from), from, smooth(free.gone));
+  const float fading =
+      glm::mix(std::max(free.seam, from), from, glm::smoothstep(0.0f, 1.0f, free.gone));
   const float start = std::max(free.own, fading);
   if (angle <= start) return angle;
   const float room = std::max(most - start, kLeastRoom);

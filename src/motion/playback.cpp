@@ -40,11 +40,6 @@ Vec3 on_ground(Vec3 v) {
   return {v.x, 0, v.z};
 }
 
-float smooth(float t) {
-  t = std::clamp(t, 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 // max(x, 0) with a parabola over +-width in place of the corner.
 float soft_positive(float x, float width) {
   if (x >= width) return x;
@@ -422,7 +417,7 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_bal
     case Mode::swing:
       if (foot.by_joints) {
         ball = blended_ball + kUp * foot.lift.of(blended_ball.y - floor, clip_ball.y - floor,
-                                                 smooth(foot.reach_left));
+                                                 glm::smoothstep(0.0f, 1.0f, foot.reach_left));
       } else {
         ball += clip_ball;
       }
@@ -477,7 +472,8 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     ankle[i] = wanted - foot_rotation[i] * skeleton_.offset[ball];
     const Vec3 hip = world.position[index(leg(side).root)];
     // As straight as the clip's leg or, fading, as it was at the seam.
-    const float seam = kStraightest + (foot.reach - kStraightest) * smooth(foot.reach_left);
+    const float seam =
+        kStraightest + (foot.reach - kStraightest) * glm::smoothstep(0.0f, 1.0f, foot.reach_left);
     foot.reach_left = std::max(0.0f, foot.reach_left - kTickSeconds / blend_seconds_);
     straightest[i] = std::clamp(std::max(seam, reach_share(skeleton_, leg(side), clip_world)),
                                 kStraightest, kLongest);
@@ -485,7 +481,7 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const Vec3 line = hip - ankle[i];
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
-    needed = std::max(needed, smooth(foot.load) * soft_positive(over, 0.004f));
+    needed = std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, 0.004f));
   }
   sink_.follow(needed);
   pose.hips.y -= sink_.value;
@@ -579,7 +575,8 @@ void Playback::place_hands(const Pose& clip_pose, Pose& pose) {
     // The arm may be as straight as the clip's is or, fading, as it was at the seam; beyond, it
     // eases.
     const float left = offset.seconds_left() / blend_seconds_;
-    const float seam = kSoftReach + (arm_reach_[i] - kSoftReach) * smooth(left);
+    const float seam =
+        kSoftReach + (arm_reach_[i] - kSoftReach) * glm::smoothstep(0.0f, 1.0f, left);
     const float soft = std::max({kSoftReach, seam, reach_share(skeleton_, arm(side), clip_world)});
     const Vec3 target =
         clip_world.position[index(arm(side).end)] - kUp * sink_.value + offset.value();

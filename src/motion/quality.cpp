@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.h"
+
 namespace ringcraft {
 namespace {
 
 constexpr double kMeasuredRate = 60;  // Hz
-
-// The value below which `share` of the values lie; the values are not empty.
-float quantile(std::vector<float> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 float standing_height(const std::vector<Vec3>& path, const std::vector<std::size_t>& upright) {
   std::vector<float> heights;
@@ -35,7 +30,7 @@ double foot_skate_ratio(const std::array<FootPath, 2>& feet, std::span<const flo
       static_cast<std::size_t>(std::max(1.0, std::round(frames_per_second / kMeasuredRate)));
   const double step = static_cast<double>(stride) / frames_per_second;
   if (hips_height.size() < 2 * stride) return 0;
-  const float usual = quantile({hips_height.begin(), hips_height.end()}, 0.75);
+  const float usual = quantile(std::vector<float>(hips_height.begin(), hips_height.end()), 0.75);
   std::vector<std::size_t> upright;
   for (std::size_t i = 0; i < hips_height.size(); i += stride)
     if (hips_height[i] >= settings.hips_up * usual) upright.push_back(i);

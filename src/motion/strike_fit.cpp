@@ -17,7 +17,7 @@ constexpr float kLeastRest = 0.12f, kShareSigma = 0.022f;           // s
 constexpr float kTrunkLeads = 0.30f, kTrunkThere = 0.03f;           // s before the meeting
 constexpr float kStraightestArm = 0.985f, kStraightestLeg = 0.99f;  // shares of their lengths
 constexpr float kSoftArm = 0.93f;        // share beyond which an arm that is led straightens softly
-constexpr int kRounds = 8;               // after which a strike meets, or never will
+constexpr int kFitRounds = 8;            // after which a strike meets, or never will
 constexpr float kMet = 0.002f;           // m
 constexpr float kAimed = 0.03f;          // m
 constexpr float kReachStep = 0.01f;      // m
@@ -117,7 +117,7 @@ class Mover {
       if (action_.length() - led.meeting.tick < ticks(kLeastRest)) led.aim = led.meeting.at;
     }
     for (Led& led : strikes_) led.help = help_for(led.strike, led.aim - led.meeting.at);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kFitRounds; ++round) {
       find_sink();
       float worst = 0;
       for (Led& led : strikes_) {

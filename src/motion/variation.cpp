@@ -17,7 +17,7 @@ constexpr float kStriking = 0.25f;        // share of the offset left while a li
 constexpr float kComesBack = 0.12f;       // s before and after, over which it fades
 constexpr float kBreath = radians(0.7f);  // of the upper chest
 constexpr float kShoulderBreath = radians(1.3f);
-constexpr float kSoftReach = 0.985f;
+constexpr float kVariedReach = 0.985f;
 
 // 1 far from every moment at which the hand can hit, less near them.
 float freedom(const Action& action, Joint hand, Tick age) {
@@ -98,7 +98,7 @@ Pose Variation::of(const Skeleton& skeleton, const Action& action, Pose pose, Ti
                    hands_[first + 2].at(since));
     const float own = freedom(action, limb.end, age);
     const Vec3 wrist = clip.position[index(limb.end)] + heading * off * (own * skeleton.height);
-    move_limb_end(skeleton, limb, wrist, kSoftReach, pose);
+    move_limb_end(skeleton, limb, wrist, kVariedReach, pose);
   }
   return pose;
 }

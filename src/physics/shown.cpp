@@ -36,15 +36,10 @@ constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
 constexpr Tick kEased = 8;         // ticks on either side that a shown pose is the mean of
 constexpr float kLimitTolerance = radians(2);
 
-float smooth(float t) {
-  t = std::clamp(t, 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 // Muscles of a struck body that stays up: trunk and arms are slack until the reflex, the legs carry
 // on; the neck has its full torque but gives like a muscle (stiffness-limited).
 Tone standing_tone(float seconds, float tone) {
-  const float back = smooth((seconds - kReflex) / (kFirm - kReflex));
+  const float back = glm::smoothstep(kReflex, kFirm, seconds);
   const auto ramp = [&](float low) { return tone * (low + (1 - low) * back); };
   Tone t = whole_body(ramp(.4f));
   for (const Part p : {Part::neck, Part::head}) t[index(p)] = ramp(1);
@@ -112,7 +107,7 @@ Pose lying_pose(const BodyModel& body, const Pose& aimed, const Pose& now) {
   Pose pose = aimed;
   bend(pose, 5, 2, 2);
   const Vec3 chest_faces = world_pose(body.skeleton, now).rotation[index(Joint::chest)] * kForward;
-  const float up = smooth((chest_faces.y + .7f) / 1.2f);  // 0 on the face, 1 on side or back
+  const float up = glm::smoothstep(-.7f, .5f, chest_faces.y);  // 0 on the face, 1 on side or back
   set_legs(pose, 30 * up, 55 * up);
   if (up < .5f) {
     for (const Side side : {Side::left, Side::right}) {
@@ -360,14 +355,14 @@ class Shown {
   }
 
   Pose aim(Tick tick) const {
-    const float share = smooth(static_cast<float>(tick) * kTickSeconds / into_clip_);
+    const float share = glm::smoothstep(0.0f, into_clip_, static_cast<float>(tick) * kTickSeconds);
     if (share >= 1) return clip(tick);
     return mix(frame_.continued(tick), clip(tick), share);
   }
 
   Pose stand_tick(Tick tick) {
     const float now = static_cast<float>(tick) * kTickSeconds;
-    const float meet = smooth((now - kMeetFrom) / (kMeetBy - kMeetFrom));
+    const float meet = glm::smoothstep(kMeetFrom, kMeetBy, now);
     if (meet >= 1) return frame_.out(clip(tick));
     const Pose from = aim(tick - 1), to = aim(tick);
     for (int half = 0; half < 2; ++half) {
@@ -379,18 +374,18 @@ class Shown {
     }
     Pose pose = ragdoll_.pose();
     // The start pose was let down onto the ground: shown, that comes gradually.
-    pose.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
+    pose.hips.y += frame_.lowered() * (1 - glm::smoothstep(0.0f, kIntoClip, now));
     Pose met = meet > 0 ? mix(pose, clip(tick), meet) : pose;
     // Trunk and arms set out at once: what flies off at the hand-over cannot be caught in a frame.
-    const Pose above = mix(pose, clip(tick), smooth(now / kMeetBy));
-    const Pose arms = mix(pose, clip(tick), smooth(now / kArmsMeetBy));
+    const Pose above = mix(pose, clip(tick), glm::smoothstep(0.0f, kMeetBy, now));
+    const Pose arms = mix(pose, clip(tick), glm::smoothstep(0.0f, kArmsMeetBy, now));
     for (std::size_t j = index(Joint::spine); j < index(Joint::left_upper_leg); ++j) {
       met.rotation[j] = j >= index(Joint::left_shoulder) ? arms.rotation[j] : above.rotation[j];
     }
     for (const Side side : {Side::left, Side::right}) {
       const std::size_t j = index(arm(side).root);
       met.rotation[j] = mix_root(side, arm(side), pose.rotation[j], clip(tick).rotation[j],
-                                 smooth(now / kArmsMeetBy));
+                                 glm::smoothstep(0.0f, kArmsMeetBy, now));
     }
     Pose mended = mend_(met);
     feet_.hold(mended);
@@ -405,13 +400,14 @@ class Shown {
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
     const float since = now - landed_;
     // The legs are let down before they, too, let go.
-    const float legs = glm::mix(kLetDownTone, kLyingTone,
-                                smooth((since - (lying_.empty() ? kFade : kGatherUntil)) / kFade));
+    const float legs = glm::mix(
+        kLetDownTone, kLyingTone,
+        glm::smoothstep(0.0f, 1.0f, (since - (lying_.empty() ? kFade : kGatherUntil)) / kFade));
     for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) tone[i] = legs;
     if (!lying_.empty()) {
       // It gathers itself: as it lies, limbs go to where the get-up will need them.
-      const float gather = smooth((since - kGatherFrom) / kGatherIn) *
-                           (1 - smooth((since - kGatherUntil) / kGatherIn));
+      const float gather = glm::smoothstep(kGatherFrom, kGatherFrom + kGatherIn, since) *
+                           (1 - glm::smoothstep(kGatherUntil, kGatherUntil + kGatherIn, since));
       for (float& t : tone) t = glm::mix(t, kGatherTone, gather);
     }
     return tone;
@@ -462,7 +458,7 @@ class Shown {
     }
     still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
-    lifted.hips.y += frame_.lowered() * (1 - smooth(now / kIntoClip));
+    lifted.hips.y += frame_.lowered() * (1 - glm::smoothstep(0.0f, kIntoClip, now));
     Pose shown = frame_.out(mend_(lifted));
     const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
     if (over) rested_ = shown;

@@ -6,7 +6,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr double kFarthest = -3.0;        // g(d) never falls below
+constexpr double kLeastNearness = -3.0;   // g(d) never falls below
 constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 constexpr double kOverlapCost = 10.0;     // points/s per metre
 constexpr double kRopesNear = 0.8;        // m
@@ -39,7 +39,8 @@ Weights weights_at(const Style& style, double quiet) {
 }
 
 double location_rate(const Weights& weights, double distance, double cosine, double to_ropes) {
-  double in_reach = std::max(kFarthest, -std::abs(distance - weights.distance) / weights.sigma);
+  double in_reach =
+      std::max(kLeastNearness, -std::abs(distance - weights.distance) / weights.sigma);
   in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
   const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestLine = 1u << 20;  // bytes
+constexpr std::size_t kLongestBout = 1u << 20;  // bytes
 
 tl::unexpected<Error> fault(const std::string& file, std::size_t line, std::string what) {
   return input_error(file, fmt::format("line {}", line), std::move(what),
@@ -168,7 +168,7 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
       return fault(file, number, "the file ends inside a line: it is cut off");
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
-    if (line.size() > kLongestLine) return fault(file, number, "longer than 1 MiB");
+    if (line.size() > kLongestBout) return fault(file, number, "longer than 1 MiB");
     const json read = json::parse(line, nullptr, false);
     if (number == 1) {
       const auto word = [&](const char* key) {

@@ -70,8 +70,8 @@ std::string text_at(double x, double y, const std::string& anchor, const std::st
       anchor, size, escaped(text));
 }
 
-constexpr double kPanel = 600, kTop = 84, kLegend = 60;  // px
-constexpr double kSquare = 540, kStrip = 150;            // px: heights of a panel
+constexpr double kMapPanel = 600, kMapTop = 84, kMapLegend = 60;  // px
+constexpr double kSquare = 540, kStrip = 150;                     // px: heights of a panel
 
 // One panel's values over two axes: points[row of `outer`][column of `inner`].
 struct Panel {
@@ -84,7 +84,8 @@ class Drawing {
  public:
   void panel(const Panel& panel, bool polar, double left) {
     left_ = left;
-    if (!panel.title.empty()) svg_ += text_at(left + kPanel / 2, kTop - 20, "middle", panel.title);
+    if (!panel.title.empty())
+      svg_ += text_at(left + kMapPanel / 2, kMapTop - 20, "middle", panel.title);
     polar ? draw_polar(panel) : draw_grid(panel);
   }
   const std::string& svg() const { return svg_; }
@@ -92,7 +93,7 @@ class Drawing {
  private:
   void draw_polar(const Panel& panel) {
     constexpr double kRadius = 215;  // px
-    const double cx = left_ + kPanel / 2, cy = kTop + kSquare / 2 - 10;
+    const double cx = left_ + kMapPanel / 2, cy = kMapTop + kSquare / 2 - 10;
     const std::vector<Span> ways = spans_of(panel.across.values, 30);
     const std::vector<Span> sizes = spans_of(panel.along.values, 10);
     const double most = sizes.back().to;
@@ -160,9 +161,9 @@ class Drawing {
 
   void draw_grid(const Panel& panel) {
     constexpr double kLeft = 70, kRight = 20, kBelow = 60;
-    const double x0 = left_ + kLeft, x1 = left_ + kPanel - kRight;
+    const double x0 = left_ + kLeft, x1 = left_ + kMapPanel - kRight;
     const bool line = panel.along.values.size() == 1;  // one axis only: a strip
-    const double y0 = kTop, y1 = kTop + (line ? kStrip : kSquare) - kBelow;
+    const double y0 = kMapTop, y1 = kMapTop + (line ? kStrip : kSquare) - kBelow;
     const std::vector<Span> xs = spans_of(panel.across.values, 1);
     const std::vector<Span> ys = spans_of(panel.along.values, 1);
     const auto x = [&](double v) {
@@ -298,14 +299,14 @@ std::string legend(const HitSweep& sweep, double width, double y) {
 std::string sweep_svg(const HitSweep& sweep) {
   const Order order = order_of(sweep);
   const std::vector<Panel> panels = panels_of(sweep, order);
-  const double width = kPanel * static_cast<double>(panels.size());
+  const double width = kMapPanel * static_cast<double>(panels.size());
   const double tall = order.along ? kSquare : kStrip;
-  const double height = kTop + tall + kLegend;
+  const double height = kMapTop + tall + kMapLegend;
   Drawing drawing;
   double left = 0;
   for (const Panel& panel : panels) {
     drawing.panel(panel, order.polar, left);
-    left += kPanel;
+    left += kMapPanel;
   }
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -314,7 +315,7 @@ std::string sweep_svg(const HitSweep& sweep) {
       width, height);
   svg += text_at(width / 2, 24, "middle", sweep.title, 14);
   svg += text_at(width / 2, 43, "middle", sweep.what, 13);
-  return svg + drawing.svg() + legend(sweep, width, kTop + tall + 16) + "</svg>\n";
+  return svg + drawing.svg() + legend(sweep, width, kMapTop + tall + 16) + "</svg>\n";
 }
 
 }  // namespace ringcraft

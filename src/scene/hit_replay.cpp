@@ -20,7 +20,7 @@ constexpr std::uint8_t kVersion = 1;
 constexpr int kHashBytes = 8;
 constexpr std::size_t kLongestText = 16'384;
 constexpr std::size_t kLongestLine = 1u << 20;  // bytes: a parsed line takes many times its size
-constexpr float kFarthest = 10'000;             // m, m/s, N s, rad: beyond it nothing is a fight
+constexpr float kFarthestFigure = 10'000;       // m, m/s, N s, rad: beyond it nothing is a fight
 
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   return hash_bytes(std::as_bytes(bytes));
@@ -88,7 +88,7 @@ HitReplay read_fields(ByteReader& reader) {
 }
 
 bool plausible(float value) {
-  return std::isfinite(value) && std::abs(value) < kFarthest;
+  return std::isfinite(value) && std::abs(value) < kFarthestFigure;
 }
 bool plausible(Vec3 v) {
   return plausible(v.x) && plausible(v.y) && plausible(v.z);

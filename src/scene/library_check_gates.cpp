@@ -4,16 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
+
 namespace ringcraft {
 
 namespace {
-
-// The middle value; 0 of none.
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 bool is_hand(const Strike& strike) {
   return strike.joint == Joint::left_hand || strike.joint == Joint::right_hand;

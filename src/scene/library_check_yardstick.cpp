@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/quantile.h"
 #include "scene/library_check_strikes.h"
 
 namespace ringcraft {
@@ -61,12 +62,6 @@ double nearest(const Posture& a, const std::vector<Posture>& to, float tau) {
     best = std::min(best, sum);
   }
   return std::sqrt(best / static_cast<float>(kJoints));
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 bool boxes(const Action& action) {

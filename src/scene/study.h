@@ -72,7 +72,4 @@ struct MeanInterval {
 };
 MeanInterval mean_interval(const std::vector<double>& values);
 
-// The value below which `share` (0..1) of the values lie, linear between neighbours; 0 of none.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace ringcraft

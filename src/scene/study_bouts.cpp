@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "base/random.h"
 #include "planner/impact_store.h"
 #include "planner/root_search.h"

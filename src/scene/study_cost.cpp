@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "planner/impact_store.h"
 #include "planner/plan.h"
 #include "scene/moments.h"

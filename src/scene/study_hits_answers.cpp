@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "base/random.h"
 #include "motion/quality.h"
 #include "physics/ragdoll.h"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "base/random.h"
 #include "physics/ragdoll.h"
 #include "physics/stances.h"
@@ -15,8 +16,9 @@ namespace ringcraft {
 
 namespace {
 
-constexpr std::array<Part, 6> kStruck{Part::head,       Part::chest,     Part::pelvis,
-                                      Part::left_thigh, Part::left_shin, Part::right_upper_arm};
+constexpr std::array<Part, 6> kStruckParts{Part::head,      Part::chest,
+                                           Part::pelvis,    Part::left_thigh,
+                                           Part::left_shin, Part::right_upper_arm};
 
 void free_flight_row(const BodyModel& body, const Pose& pose, HitRows& rows) {
   double worst = 0;
@@ -69,11 +71,11 @@ void step_size_rows(const BodyModel& body, const Pose& pose, HitRows& rows) {
 // Of a ladder of impulses, the rungs on which a harder hit is answered by less.
 void ladder_row(const HitsAsked& asked, const BodyModel& body, HitRows& rows) {
   const std::array<Pose, 2> stances{square_stance(body), fighting_stance(body)};
-  std::vector<int> less(kStruck.size() * stances.size() * 8);
+  std::vector<int> less(kStruckParts.size() * stances.size() * 8);
   std::vector<std::string> where(less.size());
   run_tasks(less.size(), asked.run.threads, [&](std::size_t i) {
     if (asked.run.stopped()) return;
-    const Part part = kStruck[i / 16];
+    const Part part = kStruckParts[i / 16];
     const Pose& pose = stances[i / 8 % 2];
     const float way = static_cast<float>(i % 8) * kPi / 4 + .01f;
     int highest = 0;
@@ -153,7 +155,7 @@ void law_rows(const HitsAsked& asked, HitRows& rows) {
   const Pose pose = fighting_stance(body);
   double spin = 0, speed = 0;
   int answered = 0;
-  for (const Part part : kStruck) {
+  for (const Part part : kStruckParts) {
     const ImpactOutcome o = impulse_step(body, StillHit(body, pose, part, 0, 0).input);
     answered += severity(o) > 0 ? 1 : 0;
     spin = std::max(spin, static_cast<double>(o.head_spin));

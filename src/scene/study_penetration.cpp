@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "io/quality.h"
 #include "scene/moments.h"
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "planner/impact_store.h"
 #include "planner/search_cost.h"
 #include "planner/tally.h"

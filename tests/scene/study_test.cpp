@@ -82,13 +82,6 @@ TEST(StudyTest, WilsonsIntervalHasThePublishedValues) {
   EXPECT_EQ(wilson(0, 0).high, 1);
 }
 
-TEST(StudyTest, QuantileIsLinearBetweenNeighbours) {
-  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 0.5), 2.5);
-  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 1), 4);
-  EXPECT_DOUBLE_EQ(quantile({7}, 0.99), 7);
-  EXPECT_DOUBLE_EQ(quantile({}, 0.5), 0);
-}
-
 class ClipsTest : public testing::Test {
  protected:
   ClipsTest() : library_(synthetic::library()), body_(make_body({})) {}
