@@ -2,6 +2,9 @@
 // Partial responses: an absorbed blow is answered by as much of its clip as the blow moves the
 // body.
 
+#include <span>
+#include <vector>
+
 #include "motion/library.h"
 #include "physics/impact.h"
 
@@ -20,9 +23,17 @@ float share_of_clip(const BodyModel& body, const ImpactInput& input, const Impac
 // guard.
 void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose);
 
-// How far the clip moves a body, m: the largest way of head, face and chest about the hips, from
-// `rest` on. One space, one scale.
+// How far each pose of the clip moves a body, m: the largest way of head, face and chest about the
+// hips, from `rest` on. One space, one scale.
+std::vector<float> ways_of_clip(const Skeleton& skeleton, const Pose& rest,
+                                std::span<const Pose> clip);
+// The largest of them, m.
 float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
+
+// The tick of an absorbing response, from the contact on, from which a body that shows `share` of
+// its clip may act again: it has felt the blow, and what is left of the way back is less than 3 cm.
+// `ways`: those of the whole clip.
+Tick free_again(std::span<const float> ways, float share);
 
 // share_of_clip() as an impulse step tells it, 100 ms on, without a second simulation.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "physics/partial.h"
+
 namespace ringcraft {
 namespace {
 
@@ -127,6 +129,7 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
                                           : forced_response(library, last, action, node.now, scale);
   if (what.response && what.response->kind == ResponseKind::absorb) {
     next.share = duelist.pending_share;
+    next.end = next.start + free_again(tables.at(action).ways, next.share);
   }
   duelist.flight = InFlight(tables, next);
   duelist.pending = {};

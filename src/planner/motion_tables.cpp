@@ -257,7 +257,8 @@ void MotionTables::add_parts(ActionId action) {
   ActionTable& whole = actions_[action.at()];
   Pose rest = whole.pose.front();
   put_in_guard(library_, *whole.action, rest);
-  whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
+  whole.ways = ways_of_clip(body_.skeleton, rest, whole.pose);
+  whole.way = *std::max_element(whole.ways.begin(), whole.ways.end());
   parts_[action.at()] = actions_.size();
   for (const float share : kParts) {
     std::vector<Pose> poses;
