@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "default_library.h"
 #include "physics/partial.h"
 
@@ -64,6 +66,16 @@ TEST_F(PartsOfResponses, AreOfAbsorbingResponsesOnly) {
     const Action& action = default_library().actions()[i];
     if (action.response && action.response->kind == ResponseKind::absorb) continue;
     EXPECT_EQ(&tables().at(ActionId(i), 0), &tables().at(ActionId(i))) << action.name;
+  }
+}
+
+TEST_F(PartsOfResponses, WhoIsMovedByAFifthIsFreeBeforeTheClipIsOver) {
+  for (const ActionId response : absorbing()) {
+    const ActionTable& table = tables().at(response);
+    ASSERT_EQ(table.ways.size(), static_cast<std::size_t>(table.length) + 1);
+    EXPECT_EQ(*std::max_element(table.ways.begin(), table.ways.end()), table.way);
+    EXPECT_LT(free_again(table.ways, .2f), table.length * 7 / 10) << table.action->name;
+    EXPECT_LE(free_again(table.ways, 1), table.length);
   }
 }
 

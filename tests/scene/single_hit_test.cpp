@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "physics/partial.h"
+#include "planner/motion_tables.h"
 #include "scene/hit_fixture.h"
 
 namespace ringcraft {
@@ -50,6 +54,26 @@ TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
   EXPECT_EQ(answer->timeline.tracks[0].frames.size(),
             static_cast<std::size_t>(answer->timeline.end) + 1);
   EXPECT_EQ(answer->timeline.events[0].type, EventType::hit);
+}
+
+TEST(SingleHit, WhoAbsorbsIsFreeAgainWhenTheTreeSaysSo) {
+  for (const float impulse : {8.0f, 16.0f}) {
+    HitQuery hit = query("idle_guard_bounce", 0.0);
+    hit.impulse = {0, 0, -impulse};
+    hit.part = Part::head;
+    const auto answer = simulate_hit(default_library(), hit);
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    const MotionTables tables(default_library(), answer->bodies.front());
+    const auto& segments = answer->timeline.tracks.front().segments;
+    const auto response = std::find_if(segments.begin(), segments.end(), [](const Segment& one) {
+      return one.kind == Kind::response;
+    });
+    ASSERT_NE(response, segments.end());
+    const Launch& launch = response->launch;
+    EXPECT_LT(launch.share, 1);
+    EXPECT_EQ(launch.end - launch.start, free_again(tables.at(launch.action).ways, launch.share));
+    EXPECT_LT(launch.end - launch.start, default_library().action(launch.action).length());
+  }
 }
 
 struct Placed {
