@@ -59,7 +59,9 @@ Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick 
 
 Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {
   const Clip& clip = library.action(launch.action).clip;
-  return placement_at(library, launch, tick) * scaled(clip.root_at(tick - launch.start), scale);
+  Placement root = scaled(clip.root_at(tick - launch.start), scale);
+  if (launch.share < 1) root = mix(Placement{}, root, launch.share);
+  return placement_at(library, launch, tick) * root;
 }
 
 Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {

@@ -57,8 +57,8 @@ float aim_share(const Action& action, Tick age);
 // aim that has been eased in.
 Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick tick);
 
-// The fighter's root placement in the world at `tick` (ground position and facing). `scale`: the
-// body's height over kCanonicalHeight.
+// The fighter's root placement in the world at `tick` (ground position and facing); where a share
+// of the clip is shown, that share of its way. `scale`: the body's height over kCanonicalHeight.
 Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale);
 
 // The clip's frame in the world at `tick`, for a body of that scale.

@@ -268,6 +268,8 @@ void MotionTables::add_parts(ActionId action) {
     }
     ActionTable part = action_table(*whole.action, body_, std::move(poses));
     part.id = ActionId(actions_.size());
+    for (Placement& root : part.root) root = mix(Placement{}, root, share);
+    part.end = Frame(part.root.back());
     part.next = whole.next;
     part.over = whole.over;
     actions_.push_back(std::move(part));

@@ -104,6 +104,21 @@ TEST_F(StateTest, ResponseStartsWhereTheCutActionStands) {
   EXPECT_EQ(response.aim, 0);
 }
 
+// What follows must start where the body is, not where the whole clip would have left it.
+TEST_F(StateTest, AShareOfAClipLeadsTheRootAsFar) {
+  Launch turn;
+  turn.action = library().find("turn_left");
+  turn.end = library().action(turn.action).length();
+  const Placement whole = root_at(library(), turn, turn.end, 1);
+  ASSERT_GT(std::abs(whole.yaw), 0.1f);
+  turn.share = 0.25f;
+  const Placement part = root_at(library(), turn, turn.end, 1);
+  EXPECT_FLOAT_EQ(part.yaw, 0.25f * whole.yaw);
+  EXPECT_FLOAT_EQ(part.x, 0.25f * whole.x);
+  turn.share = 0;
+  EXPECT_EQ(root_at(library(), turn, turn.end, 1), turn.placement);
+}
+
 TEST_F(StateTest, GetUpStartsWhereTheBodyLies) {
   const Launch fall = launch("knockdown_back", 0, {2, 1, -0.7f});
   const Launch up = forced_get_up(library(), fall, library().find("get_up_back"), fall.end, 1);

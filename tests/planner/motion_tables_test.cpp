@@ -39,6 +39,7 @@ TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
       // Turns are shared out, so the way is not quite straight.
       EXPECT_NEAR(way_of_clip(skeleton, rest, part.pose), share * whole.way, 0.1f * whole.way)
           << whole.action->name << " " << share;
+      EXPECT_FLOAT_EQ(part.end.yaw, share * whole.end.yaw) << whole.action->name;
     }
   }
 }
