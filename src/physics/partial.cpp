@@ -9,10 +9,10 @@
 namespace ringcraft {
 namespace {
 
-constexpr Tick kMeasured = 24;  // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
-constexpr float kFace = .15f;   // m before the head's joint: shows turns
-constexpr Tick kFelt = 24;      // 0.2 s: a willed answer to a touch
-constexpr float kBack = .03f;   // m from rest: as good as back
+constexpr Tick kMeasured = 24;   // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
+constexpr float kFace = .15f;    // m before the head's joint: shows turns
+constexpr Tick kAnswers = 36;    // 0.3 s: to feel a blow and to choose what to do
+constexpr float kNearly = .03f;  // m from where the clip leads: as good as there
 
 // Head, face and chest about the hips, m.
 std::array<Vec3, 3> upper(const Skeleton& skeleton, const Pose& pose) {
@@ -62,26 +62,28 @@ void put_in_guard(const MotionLibrary& library, const Action& response, Pose& po
       glm::conjugate(hips) * guard->rotation[kHips] * guard->rotation[index(Joint::spine)]);
 }
 
-std::vector<float> ways_of_clip(const Skeleton& skeleton, const Pose& rest,
-                                std::span<const Pose> clip) {
-  const auto at_rest = upper(skeleton, rest);
-  std::vector<float> ways;
-  ways.reserve(clip.size());
-  for (const Pose& pose : clip) ways.push_back(apart(upper(skeleton, pose), at_rest));
-  return ways;
-}
-
 float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip) {
-  const std::vector<float> ways = ways_of_clip(skeleton, rest, clip);
-  return ways.empty() ? 0 : *std::max_element(ways.begin(), ways.end());
+  const auto at_rest = upper(skeleton, rest);
+  float goes = 0;
+  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(skeleton, pose), at_rest));
+  return goes;
 }
 
-Tick free_again(std::span<const float> ways, float share) {
-  const auto left =
-      std::find_if(ways.rbegin(), ways.rend(), [&](float way) { return share * way > kBack; });
-  const auto back = static_cast<Tick>(ways.rend() - left);  // the first after the last that is out
-  const auto last = static_cast<Tick>(ways.size()) - 1;
-  return std::max(0, std::min(last, std::max(kFelt, back)));
+std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip) {
+  if (clip.empty()) return {};
+  const auto at_last = upper(skeleton, clip.back());
+  std::vector<float> left;
+  left.reserve(clip.size());
+  for (const Pose& pose : clip) left.push_back(apart(upper(skeleton, pose), at_last));
+  return left;
+}
+
+Tick free_again(std::span<const float> left, float share) {
+  const auto far =
+      std::find_if(left.rbegin(), left.rend(), [&](float way) { return share * way > kNearly; });
+  const auto near = static_cast<Tick>(left.rend() - far);  // the first after the last that is far
+  const auto last = static_cast<Tick>(left.size()) - 1;
+  return std::max(0, std::min(last, std::max(kAnswers, near)));
 }
 
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip) {

@@ -23,17 +23,17 @@ float share_of_clip(const BodyModel& body, const ImpactInput& input, const Impac
 // guard.
 void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose);
 
-// How far each pose of the clip moves a body, m: the largest way of head, face and chest about the
-// hips, from `rest` on. One space, one scale.
-std::vector<float> ways_of_clip(const Skeleton& skeleton, const Pose& rest,
-                                std::span<const Pose> clip);
-// The largest of them, m.
+// How far the clip moves a body, m: the largest way of head, face and chest about the hips, from
+// `rest` on. One space, one scale.
 float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
 
+// How far the body has still to go from each pose of the clip to its last one, m, the same way.
+std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip);
+
 // The tick of an absorbing response, from the contact on, from which a body that shows `share` of
-// its clip may act again: it has felt the blow, and what is left of the way back is less than 3 cm.
-// `ways`: those of the whole clip.
-Tick free_again(std::span<const float> ways, float share);
+// its clip may act again: it had time to choose, and what is left of its way is less than 3 cm.
+// `left`: way_left of the whole clip.
+Tick free_again(std::span<const float> left, float share);
 
 // share_of_clip() as an impulse step tells it, 100 ms on, without a second simulation.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);

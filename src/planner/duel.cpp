@@ -129,7 +129,7 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
                                           : forced_response(library, last, action, node.now, scale);
   if (what.response && what.response->kind == ResponseKind::absorb) {
     next.share = duelist.pending_share;
-    next.end = next.start + free_again(tables.at(action).ways, next.share);
+    next.end = next.start + free_again(tables.at(action).way_left, next.share);
   }
   duelist.flight = InFlight(tables, next);
   duelist.pending = {};

@@ -257,8 +257,8 @@ void MotionTables::add_parts(ActionId action) {
   ActionTable& whole = actions_[action.at()];
   Pose rest = whole.pose.front();
   put_in_guard(library_, *whole.action, rest);
-  whole.ways = ways_of_clip(body_.skeleton, rest, whole.pose);
-  whole.way = *std::max_element(whole.ways.begin(), whole.ways.end());
+  whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
+  whole.way_left = way_left(body_.skeleton, whole.pose);
   parts_[action.at()] = actions_.size();
   for (const float share : kParts) {
     std::vector<Pose> poses;

@@ -46,8 +46,7 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
     const Pose rest = rest_of(library, answer.launch, body.scale);
     answer.launch.share = share_of_clip(body, input, outcome, rest, target);
     const std::span clip_alone(target.data(), static_cast<std::size_t>(clip) + 1);
-    answer.launch.end =
-        now + free_again(ways_of_clip(body.skeleton, rest, clip_alone), answer.launch.share);
+    answer.launch.end = now + free_again(way_left(body.skeleton, clip_alone), answer.launch.share);
     for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
   }
   target.resize(static_cast<std::size_t>(ticks + kAhead) + 1);

@@ -55,19 +55,19 @@ TEST_F(Partial, AForeseenShareIsTheWayOfTheBodyInTheWayOfTheClip) {
 }
 
 // A clip that goes 12 cm out by its 20th tick and comes back by its 80th.
-TEST_F(Partial, WhoIsMovedLessIsFreeEarlierButNoSoonerThanItFeels) {
-  std::vector<float> ways;
+TEST_F(Partial, WhoIsMovedLessIsFreeEarlierButNoSoonerThanItChooses) {
+  std::vector<float> left;
   for (int t = 0; t <= 80; ++t) {
-    ways.push_back(t < 20 ? .006f * static_cast<float>(t) : .002f * static_cast<float>(80 - t));
+    left.push_back(t < 20 ? .006f * static_cast<float>(t) : .002f * static_cast<float>(80 - t));
   }
-  EXPECT_EQ(free_again(ways, 1), 80 - 15 + 1);  // the first tick with less than 3 cm left
-  EXPECT_EQ(free_again(ways, .5f), 80 - 30 + 1);
-  EXPECT_EQ(free_again(ways, .2f), 24);  // 2.4 cm at most: as soon as the blow is felt
-  EXPECT_EQ(free_again(ways, 0), 24);
+  EXPECT_EQ(free_again(left, 1), 80 - 15 + 1);  // the first tick with less than 3 cm left
+  EXPECT_EQ(free_again(left, .5f), 80 - 30 + 1);
+  EXPECT_EQ(free_again(left, .2f), 36);  // 2.4 cm at most: as soon as it has chosen
+  EXPECT_EQ(free_again(left, 0), 36);
   Tick last = 0;
   for (float share = 0; share <= 1; share += .05f) {  // a harder blow never frees earlier
-    EXPECT_GE(free_again(ways, share), last);
-    last = free_again(ways, share);
+    EXPECT_GE(free_again(left, share), last);
+    last = free_again(left, share);
   }
   EXPECT_EQ(free_again(std::vector<float>(11, 1.0f), 1), 10);  // never later than the clip's end
   EXPECT_EQ(free_again({}, 1), 0);
