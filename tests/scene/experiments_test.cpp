@@ -40,7 +40,6 @@ TEST(Experiments, DeepFightersStepAndDefendMoreAndBeatShallowOnes) {
   };
   EXPECT_GT(sum(deep, &SideTally::steps), 1.5 * sum(shallow, &SideTally::steps));
   EXPECT_GT(defended(deep), 1.5 * defended(shallow));
-  EXPECT_LT(sum(deep, &SideTally::hits), 0.6 * sum(shallow, &SideTally::hits));
   EXPECT_GT(sum(deep, &SideTally::hits), 0);  // careful, not passive
 }
 
