@@ -44,9 +44,7 @@ Tick aim_ticks(const Action& action) {
 }
 
 float aim_share(const Action& action, Tick age) {
-  const float share =
-      std::clamp(static_cast<float>(age) / static_cast<float>(aim_ticks(action)), 0.0f, 1.0f);
-  return share * share * (3 - 2 * share);
+  return glm::smoothstep(0.0f, static_cast<float>(aim_ticks(action)), static_cast<float>(age));
 }
 
 Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick tick) {

@@ -1,6 +1,7 @@
 #include "scene/single_hit.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <fmt/format.h>
@@ -26,8 +27,9 @@ Vec3 point_of(const BodyModel& body, const Pose& pose, Part part, Vec3 impulse) 
   return (capsule.a + capsule.b) * 0.5f - normalized_or(impulse, Vec3{}) * capsule.radius;
 }
 
-// An idle that can follow, for what is shown after the response.
-ActionId resting_action(const MotionLibrary& library, ActionId after) {
+// An idle that can follow, for what is shown after the response: the one `before` it, if any.
+ActionId resting_action(const MotionLibrary& library, ActionId after, ActionId before) {
+  if (before.valid() && library.machine().edge(after, before) != nullptr) return before;
   for (const Edge& edge : library.machine().edges(after)) {
     if (library.action(edge.to).kind == Kind::idle) return edge.to;
   }
@@ -53,6 +55,7 @@ class Showing {
     launch.end = start + library_.action(action).length();
     launch.placement = placement;
     stage_.begin(id, launch);
+    if (library_.action(action).kind == Kind::idle) rest_[id.at()] = action;
   }
 
   // Shows one tick, up to where contacts are looked for; `settle` completes it.
@@ -113,12 +116,14 @@ class Showing {
     const Placement root = root_at(library_, last, shown, scale);
     Vec3 ahead = root * kForward;
     if (stage_.size() > 1) ahead = stage_.shown(FighterId(1 - id.at())).hips;
-    stage_.begin(id, following(library_, last, resting_action(library_, last.action), shown, ahead,
-                               scale, stage_.size() > 1 ? kFacingTurn : 0));
+    stage_.begin(
+        id, following(library_, last, resting_action(library_, last.action, rest_[id.at()]), shown,
+                      ahead, scale, stage_.size() > 1 ? kFacingTurn : 0));
   }
 
   const MotionLibrary& library_;
   Stage stage_;
+  std::array<ActionId, 2> rest_{};  // the idle that each was in, if any
   Tick now_ = 0;
   bool lies_ = false;
 };
