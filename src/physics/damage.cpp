@@ -7,10 +7,9 @@
 namespace ringcraft {
 namespace {
 
-// Points per newton-second. Chosen so that clean blows of typical impulse cost what people expect
-// of a bout of 100 points: jab 12 N s about 3, cross 26 about 7, hook 34 about 8-9, roundhouse 55
-// to the body about 12.
-constexpr float kHead = .26f, kBody = .22f, kLeg = .16f;
+// Points per newton-second. One point is a third of a clean jab, 15 N s in the default library; its
+// crosses and hooks of 21 N s cost about 5, a roundhouse of 45 to the body 8.
+constexpr float kHead = .20f, kBody = .17f, kLeg = .125f;
 constexpr float kBlocked = .35f;    // of what the passed-on impulse would cost
 constexpr float kSlightest = 1.0f;  // N s: a touch costs nothing
 constexpr float kPerSpin = .02f;    // points per rad/s of the head's spin: rotation hurts

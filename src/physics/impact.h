@@ -72,12 +72,12 @@ struct ImpactInput {
 
 inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
 
-// Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. A
-// clean cross gives about 25 at neck tone 0.5 (ragdoll.md section 4). Over random clean punches of
-// competition speed the 99th percentile is 30 for jabs, 43 for crosses and 45-50 for hooks: so of
-// order one landed punch in a hundred knocks down, a hook sooner than a cross (validation V1), and
-// a hard kick does.
-inline constexpr float kKnockoutSpin = 45.0f;
+// Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. Of 391
+// punches that landed on heads in 16 duels of the default library (seeds 1-8 and 21-28) half turned
+// the head by 24 and 99 % by less than 64: so of order one landed punch in a hundred knocks down
+// (validation V1), and a hard kick does. As a free head that is 8,500 rad/s2 for 12 ms: the
+// published straights of Olympic boxers, at full strength, have 6,343 +- 1,789.
+inline constexpr float kKnockoutSpin = 65.0f;
 
 // Whole-body tone under which nobody stands (ragdoll.md section 7, 12).
 inline constexpr float kLeastStandingTone = 0.25f;

@@ -102,7 +102,7 @@ TEST_F(BlowOf, ImpulseGrowsWithSpeedAndABlockPassesOnLess) {
   EXPECT_LT(glm::length(blocked.impulse), .6f * glm::length(fast.impulse));
   // Guard or not, the part itself is struck as hard: faster than the striker goes on, by e v.
   const float left = blocked.speed - 2 * glm::length(blocked.impulse) / blocked.effective_mass;
-  EXPECT_NEAR(glm::length(struck_velocity(blocked)), left + .1f * blocked.speed, 1e-3f);
+  EXPECT_NEAR(glm::length(struck_velocity(blocked)), left + .45f * blocked.speed, 1e-3f);
   EXPECT_NEAR(glm::length(struck_velocity(fast)), glm::length(struck_velocity(blocked)), 1e-3f);
 }
 
@@ -116,10 +116,9 @@ TEST(Damage, CleanBlowsCostWhatIsExpectedOfThem) {
     outcome.head_spin = spin;
     return static_cast<float>(damage_of(blow, outcome)) / 1000;
   };
-  EXPECT_NEAR(points(Part::head, 12, 12, false), 3, .6f);
-  EXPECT_NEAR(points(Part::head, 26, 24, false), 7, 1);
-  EXPECT_NEAR(points(Part::head, 34, 34, false), 8.5f, 1.5f);
-  EXPECT_NEAR(points(Part::chest, 55, 3, false), 12, 2);
+  EXPECT_NEAR(points(Part::head, 15, 15, false), 3, .3f);
+  EXPECT_NEAR(points(Part::head, 21, 30, false), 4.7f, .5f);
+  EXPECT_NEAR(points(Part::chest, 45, 3, false), 7.5f, .7f);
   EXPECT_GT(points(Part::head, 30, 20, false), points(Part::chest, 30, 0, false));
   EXPECT_GT(points(Part::chest, 30, 0, false), points(Part::left_thigh, 30, 0, false));
   EXPECT_LT(points(Part::left_forearm, 13, 0, true), 1.5f);

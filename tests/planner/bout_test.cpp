@@ -98,7 +98,7 @@ class BoutTest : public DuelFixture {
 };
 
 TEST_F(BoutTest, DeeperFighterWinsAndDeepFightsAreCareful) {
-  const std::array<Tally, 2> uneven = bouts(3, 1, 5, 30);
+  const std::array<Tally, 2> uneven = bouts(3, 1, 12, 30);
   EXPECT_GT(uneven[0].damage, uneven[1].damage);
   EXPECT_GT(uneven[0].hits, uneven[1].hits);
 
