@@ -8,7 +8,9 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kMostPartSpeed = 15;    // m/s that a blow may give to the part it meets
+// m/s that a blow may give to the part it meets, as slack as it is at that instant: a hand that
+// took 100 N s by itself would fly through the arm's range in a tick.
+constexpr float kMostPartSpeed = 20;
 constexpr float kStanding = .03f;       // m: a sole this near to the ground stands on it
 constexpr float kMostGrounding = .12f;  // m: farther from the ground it is in the air after all
 constexpr float kMostShift = .12f;      // m: of the pelvis, against the drift
@@ -160,7 +162,7 @@ void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, f
   Vec3 met = blow.point;  // where the point was when the blow landed
   for (Part part = blow.part; left > 0;) {
     const int parent = parent_of(part);
-    const float mass = effective_mass(body, frame.pose(), part, met, line, kStruckTone);
+    const float mass = effective_mass(body, frame.pose(), part, met, line, 0);
     const float taken = parent < 0 ? left : std::min(left, mass * kMostPartSpeed);
     ragdoll.push(part, point, line * (taken * share));
     left -= taken;

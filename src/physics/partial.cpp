@@ -22,7 +22,21 @@ std::array<Vec3, 3> upper(const Skeleton& skeleton, const Pose& pose) {
           world.position[index(Joint::upper_chest)] - world.position[0]};
 }
 
-float apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+// Head, face, chest, hips and feet, m.
+std::array<Vec3, 6> whole(const Skeleton& skeleton, const Pose& pose) {
+  const auto [head, face, chest] = upper(skeleton, pose);
+  const WorldPose world = world_pose(skeleton, pose);
+  const Vec3 hips = world.position[0];
+  return {head + hips,
+          face + hips,
+          chest + hips,
+          hips,
+          world.position[index(Joint::left_foot)],
+          world.position[index(Joint::right_foot)]};
+}
+
+template <std::size_t N>
+float apart(const std::array<Vec3, N>& a, const std::array<Vec3, N>& b) {
   float most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
   return most;
@@ -71,10 +85,10 @@ float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Po
 
 std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip) {
   if (clip.empty()) return {};
-  const auto at_last = upper(skeleton, clip.back());
+  const auto at_last = whole(skeleton, clip.back());
   std::vector<float> left;
   left.reserve(clip.size());
-  for (const Pose& pose : clip) left.push_back(apart(upper(skeleton, pose), at_last));
+  for (const Pose& pose : clip) left.push_back(apart(whole(skeleton, pose), at_last));
   return left;
 }
 

@@ -27,11 +27,12 @@ void put_in_guard(const MotionLibrary& library, const Action& response, Pose& po
 // `rest` on. One space, one scale.
 float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
 
-// How far the body has still to go from each pose of the clip to its last one, m, the same way.
+// How far the body has still to go from each pose of the clip to its last one, m: the largest way
+// of head, face, chest, hips and feet.
 std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip);
 
-// The tick of an absorbing response, from the contact on, from which a body that shows `share` of
-// its clip may act again: it had time to choose, and what is left of its way is less than 3 cm.
+// The tick of a response, from the contact on, from which a body that shows `share` of its clip and
+// stays up may act again: it had time to choose, and what is left of its way is less than 3 cm.
 // `left`: way_left of the whole clip.
 Tick free_again(std::span<const float> left, float share);
 

@@ -19,6 +19,7 @@ constexpr float kStopTau = .02f;           // s in which a joint beyond its rang
 constexpr float kStopStrength = 3;         // of the muscle's torque: a joint's stop holds more
 constexpr float kMostStartSpeed = 25;      // m/s: a jump in the input must not explode
 constexpr float kMostStartTurning = 60;    // rad/s
+constexpr float kMostLimbSpin = 60;        // rad/s: whips beyond that of any limb go through floors
 constexpr float kMargin = 0.004f;          // m: collision margin of the soles
 
 constexpr int kGround = 1, kFeet = 2, kParts = 4;  // collision groups
@@ -389,6 +390,11 @@ void Ragdoll::push(Part part, Vec3 point, Vec3 impulse) {
 void Ragdoll::step() {
   // With 0 substeps Bullet takes the whole time as one step.
   world_->world->stepSimulation(world_->settings.step, 0);
+  for (std::size_t i = index(Part::left_upper_arm); i < kPartCount; ++i) {
+    btRigidBody& b = *world_->bodies[i];
+    const float spin = b.getAngularVelocity().length();
+    if (spin > kMostLimbSpin) b.setAngularVelocity(b.getAngularVelocity() * (kMostLimbSpin / spin));
+  }
 }
 
 PartMotion Ragdoll::motion(Part part) const {

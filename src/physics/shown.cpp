@@ -181,10 +181,11 @@ void lift(const BodyModel& body, const Limb& limb, float depth, Vec3 fallback, P
 // turn over.
 class Mender {
  public:
-  explicit Mender(const BodyModel& body) : body_(body) {}
+  Mender(const BodyModel& body, const Pose& start)
+      : body_(body), simulated_(start), shown_(start) {}
 
   Pose operator()(const Pose& simulated) {
-    const Pose& before = started_ ? shown_ : simulated;
+    const Pose before = shown_;
     Pose pose = within_limits(body_, simulated, kLimitTolerance, before);
     for (const Side side : {Side::left, Side::right}) {
       const WorldPose world = world_pose(body_.skeleton, pose);
@@ -193,19 +194,21 @@ class Mender {
       lift_glove(side, before, pose);
     }
     pose = within_limits(body_, pose, kLimitTolerance, before);
-    if (started_) hold_back(simulated, pose);
+    hold_back(simulated, pose);
     for (const Side side : {Side::left, Side::right}) lift_glove(side, before, pose);
     raise(pose);
-    started_ = true;
     simulated_ = simulated;
     shown_ = pose;
     return pose;
   }
 
  private:
-  static constexpr float kLeast = .001f;  // m
-  static constexpr float kGives = .015f;  // m: so deep may what is soft press
-  static constexpr float kRaise = .008f;  // m a tick
+  static constexpr float kLeast = .001f;   // m
+  static constexpr float kGives = .015f;   // m: so deep may what is soft press
+  static constexpr float kRaise = .008f;   // m a tick
+  static constexpr float kDeep = .02f;     // m: what is deeper is raised at once
+  static constexpr float kAside = .1f;     // m beyond its lift that an arm may turn aside for it
+  static constexpr float kMostTurn = .5f;  // rad a tick: 60 rad/s, as fast as a limb is thrown
   // Of a correction in a tick: a hand or the toes carry nothing that would be flung.
   static float most_turn(Joint joint) {
     const bool last = joint == Joint::left_hand || joint == Joint::right_hand ||
@@ -219,6 +222,8 @@ class Mender {
   // ranges let it.
   void lift_glove(Side side, const Pose& before, Pose& pose) const {
     constexpr int kGoes = 3;
+    const WorldPose was = world_pose(body_.skeleton, pose);
+    const float most = glove_depth(side, pose) + kAside;
     for (int i = 0; i < kGoes; ++i) {
       const float depth = glove_depth(side, pose);
       if (depth < kLeast) return;
@@ -228,6 +233,7 @@ class Mender {
       lifted.rotation[hand] = pose.rotation[hand];
       lifted = within_limits(body_, lifted, kLimitTolerance, before);
       if (glove_depth(side, lifted) >= depth) return;
+      if (largest_joint_distance(was, world_pose(body_.skeleton, lifted)) > most) return;
       pose = lifted;
     }
   }
@@ -248,20 +254,21 @@ class Mender {
     for (const Capsule& c : capsules(body_, world)) {
       deepest = std::max(deepest, c.radius - std::min(c.a.y, c.b.y) - kGives);
     }
-    raised_ += std::clamp(deepest - raised_, -kRaise, kRaise);
+    const float missing = deepest - raised_;
+    raised_ += std::clamp(missing, -kRaise, std::max(kRaise, missing - kDeep));
     const float up = std::max(soles >= kLeast ? soles : 0.0f, raised_);
     pose.hips.y += up;
   }
 
-  // A joint moves by so much a tick more than it does in the simulation, and no more. From one pose
-  // inside its range to another it stays inside, where holding back the correction alone would let
-  // it out.
+  // A joint moves by so much a tick more than it does in the simulation, and no faster than limbs
+  // do. From one pose inside its range to another it stays inside, where holding back the
+  // correction alone would let it out.
   void hold_back(const Pose& simulated, Pose& pose) const {
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const Quat last = shown_.rotation[j], wanted = pose.rotation[j];
       const float turn = angle(wanted, last);
-      const float most =
-          angle(simulated.rotation[j], simulated_.rotation[j]) + most_turn(joint_at(j));
+      const float most = std::min(
+          angle(simulated.rotation[j], simulated_.rotation[j]) + most_turn(joint_at(j)), kMostTurn);
       if (turn > most) pose.rotation[j] = between(joint_at(j), last, wanted, most / turn);
     }
   }
@@ -276,7 +283,6 @@ class Mender {
   }
 
   const BodyModel& body_;
-  bool started_ = false;
   float raised_ = 0;        // m
   Pose simulated_, shown_;  // of the tick before
 };
@@ -294,7 +300,7 @@ class Shown {
         ragdoll_(body, frame_.pose(), frame_.before(), kTickSeconds,
                  {.whole_body_contacts = outcome.response == ResponseKind::knockdown}),
         balance_(body, frame_),
-        mend_(body),
+        mend_(body, frame_.pose()),
         feet_(body, frame_),
         within_(frame_.pose()),
         into_clip_(seconds_into_clip()),

@@ -107,13 +107,13 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   const int winner = std::min(event.attacker, 1);
   const SideSetup& attacker = side(winner);
   credit(node, winner, hit_points(attacker.weights, event.blow.kind, damage, knocks_down),
-         Term::hit);
+         Term::hit, event.tick);
   const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
   if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&
       victim.flight.table->action->defense) {
     const std::int32_t full = attacker.clean_damage[event.attack.at()][event.strike];
     credit(node, event.victim, defense_points(side(event.victim).weights, full - damage),
-           Term::defense);
+           Term::defense, event.tick);
   }
 }
 
@@ -211,7 +211,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
           kBodyRadius)
         continue;
       const std::int32_t full = side(i).clean_damage[flight.launch.action.at()][s];
-      credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense);
+      credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense, over);
       spend(attacker.flight.launch, s);
       if (events_ != nullptr) {
         DuelEvent event;
@@ -248,7 +248,7 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
                    static_cast<double>(std::max(std::abs(own.x), std::abs(own.z)));
       }
       credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes),
-             Term::location);
+             Term::location, tick);
     }
   }
 }

@@ -109,8 +109,16 @@ void Duel::note_term(int who, Term term, double points, std::int32_t credited) c
   sum.credited += credited;
 }
 
-void Duel::credit(Node& node, int who, double points, Term term) const {
+double Duel::discount_at(Tick at) const {
+  const std::vector<double>& discount = setup_->discount;
+  if (discount.empty()) return 1;
+  return discount[static_cast<std::size_t>(
+      std::clamp(at - setup_->now, 0, static_cast<Tick>(discount.size()) - 1))];
+}
+
+void Duel::credit(Node& node, int who, double points, Term term, Tick at) const {
   const auto i = static_cast<std::size_t>(who);
+  points *= discount_at(at);
   const bool event = term == Term::hit || term == Term::defense;
   const std::int32_t credited =
       thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
@@ -127,8 +135,8 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
   const Launch& last = duelist.flight.launch;
   Launch next = what.kind == Kind::get_up ? forced_get_up(library, last, action, node.now, scale)
                                           : forced_response(library, last, action, node.now, scale);
-  if (what.response && what.response->kind == ResponseKind::absorb) {
-    next.share = duelist.pending_share;
+  if (what.response && what.response->kind != ResponseKind::knockdown) {
+    if (what.response->kind == ResponseKind::absorb) next.share = duelist.pending_share;
     next.end = next.start + free_again(tables.at(action).way_left, next.share);
   }
   duelist.flight = InFlight(tables, next);
@@ -173,13 +181,9 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
   for (std::size_t i = 0; i < path.size(); ++i) {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
-  const double factor = setup_->factors.rest[move.side];
-  const std::int32_t launch = own.launch[move.action.at()];
-  const auto credited = static_cast<std::int32_t>(std::lround(factor * launch));
-  node.gained += credited;
-  note_term(move.side, Term::control, launch / 1000.0, credited);
+  credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control, node.now);
   credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
-         Term::control);
+         Term::control, node.now);
 }
 
 Child<DuelNode> Duel::apply(const Node& node, const Move& move) {

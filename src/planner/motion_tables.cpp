@@ -249,7 +249,11 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     }
   }
   for (const ActionId response : library.responses()) {
-    if (library.action(response).response->kind == ResponseKind::absorb) add_parts(response);
+    const ResponseKind kind = library.action(response).response->kind;
+    if (kind == ResponseKind::knockdown) continue;
+    ActionTable& table = actions_[response.at()];
+    table.way_left = way_left(body_.skeleton, table.pose);
+    if (kind == ResponseKind::absorb) add_parts(response);
   }
 }
 
@@ -258,7 +262,6 @@ void MotionTables::add_parts(ActionId action) {
   Pose rest = whole.pose.front();
   put_in_guard(library_, *whole.action, rest);
   whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
-  whole.way_left = way_left(body_.skeleton, whole.pose);
   parts_[action.at()] = actions_.size();
   for (const float share : kParts) {
     std::vector<Pose> poses;

@@ -87,7 +87,7 @@ struct ActionTable {
   float extent = 0;              // largest distance of the body from the origin on the ground, m
   Frame end;                     // root[length]
   float way = 0;                 // of an absorbing response: way_of_clip (physics/partial.h), m
-  std::vector<float> way_left;   // of an absorbing response, one a tick, m
+  std::vector<float> way_left;   // of a response that stays up, one a tick, m
   ActionId get_up;               // of a fall: what follows it; invalid for anything else
   std::vector<NextAction> next;  // what a fighter may choose after it, by index
   std::vector<NextAction> over;  // what follows it only on the way to something else

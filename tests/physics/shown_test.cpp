@@ -169,6 +169,21 @@ TEST_F(Shown, TheMotionGoesOnFromTheVelocityItHas) {
   EXPECT_LT(glm::distance(world(poses[11]).position[hand], world(punch[16]).position[hand]), .12f);
 }
 
+// What a hand cannot take goes on to the arm and the trunk: it does not fly through its range.
+TEST_F(Shown, AHandThatIsStruckHardFliesNoFasterThanLimbsAreThrown) {
+  for (const Part part : {Part::left_hand, Part::right_hand, Part::left_foot}) {
+    for (const float impulse : {50.0f, 125.0f, 250.0f}) {
+      for (int d = 0; d < 8; ++d) {
+        const float way = static_cast<float>(d) * kPi / 4;
+        Hit hit(body, fighting, part, impulse * (yaw_rotation(way) * kForward));
+        auto poses = simulate_response(body, hit.input, impulse_step(body, hit.input), {}, 60);
+        poses.insert(poses.begin(), fighting);
+        EXPECT_LT(fastest_joint(poses), 50) << name_of(part) << " " << impulse << " " << d;
+      }
+    }
+  }
+}
+
 // Blows of any strength on any part from any side, on bodies of all sizes: nothing explodes.
 TEST_F(Shown, NoHitExplodes) {
   Random random(4);

@@ -375,6 +375,36 @@ TEST_F(DuelTest, EvadedStrikeIsCreditedToTheDefender) {
   EXPECT_EQ(node.gained, thousandths(-1.5 * 0.3 * 5));
 }
 
+TEST_F(DuelTest, WhatComesLaterCountsForLess) {
+  const FightState state = facing(1.0f);
+  const auto gained = [&](double location, double discount, Tick& evaded) {
+    Style style;
+    style.location_weight = location;
+    style.facing_weight = style.ropes_weight = 0;
+    set_style(style);
+    setup_.discount = discounts(discount, 200);
+    Duel game(setup_, 200);
+    std::vector<DuelEvent> events;
+    game.record_into(&events);
+    DuelNode node = Duel::root(setup_, state);
+    node = game.apply(node, choice(node, 0, "cross")).node;
+    node = game.apply(node, choice(node, 1, "pull_away")).node;
+    while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
+    EXPECT_EQ(events.size(), 1u);
+    evaded = events.empty() ? 0 : events[0].tick;
+    return node.gained;
+  };
+  Tick tick = 0;
+  const std::int32_t late_event = gained(0, 0.5, tick), late_both = gained(1, 0.5, tick);
+  EXPECT_GT(tick, 30);
+  EXPECT_NEAR(late_event, thousandths(-1.5 * 0.3 * 5 * std::pow(0.5, seconds(tick))), 1);
+  // Location only costs here: a cost that comes later is a smaller one.
+  const std::int32_t event = gained(0, 1, tick), both = gained(1, 1, tick);
+  EXPECT_LT(both, event);
+  EXPECT_LT(late_both, late_event);
+  EXPECT_GT(late_both - late_event, both - event);
+}
+
 TEST_F(DuelTest, StrikeAtNobodyIsNotEvaded) {
   const FightState state = facing(2.5f);
   Duel game(setup_, 200);

@@ -77,6 +77,27 @@ TEST_F(PartsOfResponses, WhoIsMovedByAFifthIsFreeBeforeTheClipIsOver) {
   }
 }
 
+TEST_F(PartsOfResponses, WhoStepsIsFreeOnceItStandsWhereTheStepsLead) {
+  int seen = 0;
+  for (const ActionId id : default_library().responses()) {
+    const ActionTable& table = tables().at(id);
+    if (table.action->response->kind != ResponseKind::recovery_steps) continue;
+    ++seen;
+    const Tick free = free_again(table.way_left, 1);
+    EXPECT_LT(free, table.length) << table.action->name;
+    const Skeleton& skeleton = tables().body().skeleton;
+    const WorldPose last = world_pose(skeleton, table.pose.back());
+    for (Tick t = free; t <= table.length; ++t) {
+      const WorldPose is = world_pose(skeleton, table.pose[static_cast<std::size_t>(t)]);
+      for (const Joint joint : {Joint::hips, Joint::head, Joint::left_foot, Joint::right_foot}) {
+        EXPECT_LT(glm::distance(is.position[index(joint)], last.position[index(joint)]), 0.0301f)
+            << table.action->name << " " << t;
+      }
+    }
+  }
+  EXPECT_GT(seen, 10);
+}
+
 // A launch says how much of its clip is shown, and the body in flight is that.
 TEST_F(PartsOfResponses, ALaunchFliesWithItsShare) {
   Launch launch;
