@@ -8,7 +8,7 @@ namespace ringcraft {
 namespace {
 
 // Points per newton-second. One point is a third of a clean jab, 15 N s in the default library; its
-// crosses and hooks of 21 N s cost about 5, a roundhouse of 45 to the body 8.
+// crosses and hooks of 21 N s cost about 5, a roundhouse of 45 to the body 7.5.
 constexpr float kHead = .20f, kBody = .17f, kLeg = .125f;
 constexpr float kBlocked = .35f;    // of what the passed-on impulse would cost
 constexpr float kSlightest = 1.0f;  // N s: a touch costs nothing
