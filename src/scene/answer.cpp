@@ -42,15 +42,16 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   for (Tick t = 0; t <= std::max(clip, ticks + kAhead); ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
-  std::vector<float> left;
-  if (!falls)
-    left = way_left(body.skeleton, std::span(target).first(static_cast<std::size_t>(clip) + 1));
-  if (outcome.response == ResponseKind::absorb) {
-    const Pose rest = rest_of(library, answer.launch, body.scale);
-    answer.launch.share = share_of_clip(body, input, outcome, rest, target);
-    for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
+  if (!falls) {
+    const std::vector<float> left =
+        way_left(body.skeleton, std::span(target).first(static_cast<std::size_t>(clip) + 1));
+    if (!steps) {
+      const Pose rest = rest_of(library, answer.launch, body.scale);
+      answer.launch.share = share_of_clip(body, input, outcome, rest, target);
+      for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
+    }
+    answer.launch.end = now + free_again(left, answer.launch.share);
   }
-  if (!falls) answer.launch.end = now + free_again(left, answer.launch.share);
   target.resize(static_cast<std::size_t>(ticks + kAhead) + 1);
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));

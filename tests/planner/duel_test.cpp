@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -11,7 +12,29 @@
 namespace ringcraft {
 namespace {
 
-class DuelTest : public DuelFixture {};
+class DuelTest : public DuelFixture {
+ protected:
+  struct Evaded {
+    DuelNode node;
+    std::vector<DuelEvent> events;
+  };
+  // A cross that is pulled away from; of the place, only the distance counts, by `location`.
+  Evaded cross_pulled_away_from(double location) {
+    Style style;
+    style.location_weight = location;
+    style.facing_weight = style.ropes_weight = 0;
+    set_style(style);
+    const FightState state = facing(1.0f);
+    Duel game(setup_, 200);
+    Evaded evaded;
+    game.record_into(&evaded.events);
+    DuelNode& node = evaded.node = Duel::root(setup_, state);
+    node = game.apply(node, choice(node, 0, "cross")).node;
+    node = game.apply(node, choice(node, 1, "pull_away")).node;
+    while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
+    return evaded;
+  }
+};
 
 BodyCapsules in_world(const InFlight& flight, Tick tick) {
   const Frame frame = flight.frame_at(tick);
@@ -358,17 +381,7 @@ TEST_F(DuelTest, LocationAddsUpHoweverTheRouteIsCut) {
 }
 
 TEST_F(DuelTest, EvadedStrikeIsCreditedToTheDefender) {
-  Style style;
-  style.location_weight = style.facing_weight = style.ropes_weight = 0;
-  set_style(style);
-  const FightState state = facing(1.0f);
-  Duel game(setup_, 200);
-  std::vector<DuelEvent> events;
-  game.record_into(&events);
-  DuelNode node = Duel::root(setup_, state);
-  node = game.apply(node, choice(node, 0, "cross")).node;
-  node = game.apply(node, choice(node, 1, "pull_away")).node;
-  while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
+  const auto [node, events] = cross_pulled_away_from(0);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, DuelEvent::Kind::evaded);
   // kappa_f 1.5 times w_d 0.3 of the clean damage of 5 points, against the planner.
@@ -376,33 +389,18 @@ TEST_F(DuelTest, EvadedStrikeIsCreditedToTheDefender) {
 }
 
 TEST_F(DuelTest, WhatComesLaterCountsForLess) {
-  const FightState state = facing(1.0f);
-  const auto gained = [&](double location, double discount, Tick& evaded) {
-    Style style;
-    style.location_weight = location;
-    style.facing_weight = style.ropes_weight = 0;
-    set_style(style);
-    setup_.discount = discounts(discount, 200);
-    Duel game(setup_, 200);
-    std::vector<DuelEvent> events;
-    game.record_into(&events);
-    DuelNode node = Duel::root(setup_, state);
-    node = game.apply(node, choice(node, 0, "cross")).node;
-    node = game.apply(node, choice(node, 1, "pull_away")).node;
-    while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
-    EXPECT_EQ(events.size(), 1u);
-    evaded = events.empty() ? 0 : events[0].tick;
-    return node.gained;
-  };
-  Tick tick = 0;
-  const std::int32_t late_event = gained(0, 0.5, tick), late_both = gained(1, 0.5, tick);
-  EXPECT_GT(tick, 30);
-  EXPECT_NEAR(late_event, thousandths(-1.5 * 0.3 * 5 * std::pow(0.5, seconds(tick))), 1);
+  const std::int32_t event = cross_pulled_away_from(0).node.gained,
+                     both = cross_pulled_away_from(1).node.gained;
+  setup_.discount = discounts(0.5, 200);
+  const auto [node, events] = cross_pulled_away_from(0);
+  const std::int32_t late_both = cross_pulled_away_from(1).node.gained;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_GT(events[0].tick, 30);
+  EXPECT_NEAR(node.gained, event * std::pow(0.5, seconds(events[0].tick)), 1);
   // Location only costs here: a cost that comes later is a smaller one.
-  const std::int32_t event = gained(0, 1, tick), both = gained(1, 1, tick);
   EXPECT_LT(both, event);
-  EXPECT_LT(late_both, late_event);
-  EXPECT_GT(late_both - late_event, both - event);
+  EXPECT_LT(late_both, node.gained);
+  EXPECT_GT(late_both - node.gained, both - event);
 }
 
 TEST_F(DuelTest, StrikeAtNobodyIsNotEvaded) {

@@ -56,6 +56,14 @@ TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
   EXPECT_EQ(answer->timeline.events[0].type, EventType::hit);
 }
 
+// The launch that answers the hit; without an action where there is none.
+Launch response_of(const HitAnswer& answer) {
+  for (const Segment& one : answer.timeline.tracks.front().segments) {
+    if (one.kind == Kind::response) return one.launch;
+  }
+  return {};
+}
+
 TEST(SingleHit, WhoAbsorbsIsFreeAgainWhenTheTreeSaysSo) {
   for (const float impulse : {8.0f, 16.0f}) {
     HitQuery hit = query("idle_guard_bounce", 0.0);
@@ -64,12 +72,8 @@ TEST(SingleHit, WhoAbsorbsIsFreeAgainWhenTheTreeSaysSo) {
     const auto answer = simulate_hit(default_library(), hit);
     ASSERT_TRUE(answer) << to_string(answer.error());
     const MotionTables tables(default_library(), answer->bodies.front());
-    const auto& segments = answer->timeline.tracks.front().segments;
-    const auto response = std::find_if(segments.begin(), segments.end(), [](const Segment& one) {
-      return one.kind == Kind::response;
-    });
-    ASSERT_NE(response, segments.end());
-    const Launch& launch = response->launch;
+    const Launch launch = response_of(*answer);
+    ASSERT_TRUE(launch.action.valid());
     EXPECT_LT(launch.share, 1);
     EXPECT_EQ(launch.end - launch.start,
               free_again(tables.at(launch.action).way_left, launch.share));
@@ -85,11 +89,8 @@ TEST(SingleHit, WhoStepsIsFreeAgainWhenTheTreeSaysSo) {
   ASSERT_TRUE(answer) << to_string(answer.error());
   ASSERT_EQ(answer->outcome.response, ResponseKind::recovery_steps);
   const MotionTables tables(default_library(), answer->bodies.front());
-  const auto& segments = answer->timeline.tracks.front().segments;
-  const auto response = std::find_if(segments.begin(), segments.end(),
-                                     [](const Segment& one) { return one.kind == Kind::response; });
-  ASSERT_NE(response, segments.end());
-  const Launch& launch = response->launch;
+  const Launch launch = response_of(*answer);
+  ASSERT_TRUE(launch.action.valid());
   EXPECT_EQ(launch.end - launch.start, free_again(tables.at(launch.action).way_left, 1));
 }
 
