@@ -126,10 +126,12 @@ ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outc
   return best;
 }
 
-std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose) {
+NearestLying nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying,
+                           const Pose& pose) {
   const auto is = shape_of(skeleton, pose, yaw_rotation(-yaw_of_body(skeleton, pose)));
-  std::size_t best = 0;
-  float least = std::numeric_limits<float>::max();
+  NearestLying best;
+  float least = std::numeric_limits<float>::max(), weights = 0;
+  for (std::size_t i = 0; i < kJointCount; ++i) weights += lying_weight(joint_at(i));
   for (std::size_t k = 0; k < lying.size(); ++k) {
     const auto shape = shape_of(skeleton, lying[k], yaw_rotation(-yaw_of_body(skeleton, lying[k])));
     float sum = 0;
@@ -137,7 +139,7 @@ std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying,
       sum += lying_weight(joint_at(i)) * glm::distance2(shape[i], is[i]);
     }
     if (sum < least) {
-      best = k;
+      best = {k, std::sqrt(sum / weights)};
       least = sum;
     }
   }
@@ -157,7 +159,7 @@ ActionId choose_get_up(const MotionLibrary& library, const Skeleton& skeleton, c
                        Stance stance) {
   const std::vector<ActionId> get_ups = get_ups_of(library, stance);
   if (get_ups.empty()) return {};
-  return get_ups[nearest_lying(skeleton, lying_poses(library, skeleton, stance), pose)];
+  return get_ups[nearest_lying(skeleton, lying_poses(library, skeleton, stance), pose).pose];
 }
 
 }  // namespace ringcraft

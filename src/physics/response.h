@@ -25,7 +25,11 @@ ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outc
 
 // Which of the lying poses is nearest to `pose`: by where the trunk's joints are about the hips and
 // how high, the limbs counting for less, since a lying body can move those. Not for an empty list.
-std::size_t nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose);
+struct NearestLying {
+  std::size_t pose = 0;
+  float apart = 0;  // m, rms over the joints with those weights
+};
+NearestLying nearest_lying(const Skeleton& skeleton, std::span<const Pose> lying, const Pose& pose);
 
 // The poses that the library's get-ups of one stance start from, for that body, in their order.
 std::vector<Pose> lying_poses(const MotionLibrary& library, const Skeleton& skeleton,

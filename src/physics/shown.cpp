@@ -26,10 +26,14 @@ constexpr float kFade = .6f;  // s after the landing in which the muscles let go
 constexpr float kGatherFrom = .25f, kGatherUntil = 1.6f;  // s after the landing
 constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
 constexpr float kGatherTone = .6f;
+constexpr float kAstray = .08f;   // m rms: a body so far from a lying pose goes on gathering itself
+constexpr float kMostGather = 3.0f;  // s after the landing
 constexpr float kRolling = .6f;   // m/s: a body that moves faster has not found its lying pose
 constexpr float kResting = .15f;  // m/s
 constexpr float kRestFor = .25f;  // s
-constexpr float kMostAfterLanding = 2.5f;  // s
+constexpr float kMostAfterLanding = 4.0f;  // s
+constexpr Tick kReposes = 12;              // a body that has come to rest
+constexpr Tick kMostLater = 240;           // than asked for, a body comes to rest
 constexpr int kPunchSteps = 3;     // of 1/240 s over which a punch's impulse is spread (12 ms)
 constexpr int kKickSteps = 12;     // of a kick (50 ms)
 constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
@@ -166,13 +170,10 @@ float depth_below_ground(const BodyModel& body, const WorldPose& world, Side sid
   return -std::min(0.0f, sole_height(body, world, side));
 }
 
-// Lifts the end of a limb by `depth`, the limb bending the way it does.
-void lift(const BodyModel& body, const Limb& limb, float depth, Vec3 fallback, Pose& pose) {
-  const WorldPose world = world_pose(body.skeleton, pose);
-  solve_limb(body.skeleton, limb,
-             {world.position[index(limb.end)] + Vec3{0, depth, 0},
-              present_pole(world, limb, world.rotation[0] * fallback), 1.0f},
-             pose);
+// Lifts the end of a limb by `depth`, with as little change as that takes.
+void lift(const BodyModel& body, const Limb& limb, float depth, Pose& pose) {
+  const Vec3 end = world_pose(body.skeleton, pose).position[index(limb.end)];
+  move_limb_end(body.skeleton, limb, end + Vec3{0, depth, 0}, 1.0f, pose);
 }
 
 // Mends simulated poses one after the other: no sole and no glove below the ground, no joint beyond
@@ -190,7 +191,7 @@ class Mender {
     for (const Side side : {Side::left, Side::right}) {
       const WorldPose world = world_pose(body_.skeleton, pose);
       const float sunk = depth_below_ground(body_, world, side);
-      if (sunk >= kLeast) lift(body_, leg(side), sunk, kForward, pose);
+      if (sunk >= kLeast) lift(body_, leg(side), sunk, pose);
       lift_glove(side, before, pose);
     }
     pose = within_limits(body_, pose, kLimitTolerance, before);
@@ -229,7 +230,7 @@ class Mender {
       if (depth < kLeast) return;
       Pose lifted = pose;
       const std::size_t hand = index(arm(side).end);
-      lift(body_, arm(side), depth, -kForward, lifted);
+      lift(body_, arm(side), depth, lifted);
       lifted.rotation[hand] = pose.rotation[hand];
       lifted = within_limits(body_, lifted, kLimitTolerance, before);
       if (glove_depth(side, lifted) >= depth) return;
@@ -311,7 +312,10 @@ class Shown {
     const bool falls = outcome_.response == ResponseKind::knockdown;
     const Tick ran = falls ? ticks : ticks + kEased;
     shown.reserve(static_cast<std::size_t>(std::max(ran, 0)));
-    for (Tick tick = 1; tick <= ran; ++tick) {
+    const Tick most = falls && !lying_.empty() ? ran + kMostLater : ran;
+    Tick rests = 0;
+    for (Tick tick = 1; tick <= ran || (rests < kReposes && tick <= most); ++tick) {
+      rests += rested_ ? 1 : 0;
       shown.push_back(falls ? fall_tick(tick) : stand_tick(tick));
     }
     return falls ? shown : eased(shown, static_cast<std::size_t>(std::max(ticks, 0)));
@@ -414,7 +418,7 @@ class Shown {
       // It gathers itself: as it lies, limbs go to where the get-up will need them.
       const float gather = glm::smoothstep(kGatherFrom, kGatherFrom + kGatherIn, since) *
                            (1 - glm::smoothstep(kGatherUntil, kGatherUntil + kGatherIn, since));
-      for (float& t : tone) t = glm::mix(t, kGatherTone, gather);
+      for (float& t : tone) t = glm::mix(t, kGatherTone, std::max(gather, astray_share_));
     }
     return tone;
   }
@@ -436,17 +440,20 @@ class Shown {
       ragdoll_.set_servo(.10f, true);
     }
     if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ > kGatherFrom) {
-      gather();
+      gather(now - landed_);
     }
+    const float in = kTickSeconds / kGatherIn;
+    astray_share_ = std::clamp(astray_share_ + (astray_ ? in : -in), 0.0f, 1.0f);
     ragdoll_.track(protective_, protective_, protective_, kTickSeconds);
   }
 
   // Aims at the nearest lying pose; while the body still rolls, that may change.
-  void gather() {
+  void gather(float since_landing) {
+    const NearestLying nearest = nearest_lying(body_.skeleton, lying_, frame_.out(ragdoll_.pose()));
+    astray_ = nearest.apart > kAstray && since_landing < kMostGather;
     if (gathering_ && glm::length(ragdoll_.motion(Part::chest).velocity) < kRolling) return;
     gathering_ = true;
-    const Pose shown = frame_.out(ragdoll_.pose());
-    protective_ = frame_.in(lying_[nearest_lying(body_.skeleton, lying_, shown)]);
+    protective_ = frame_.in(lying_[nearest.pose]);
   }
 
   Pose fall_tick(Tick tick) {
@@ -462,11 +469,12 @@ class Shown {
       landed_ = now;
       protective_ = lying_pose(body_, protective_, pose);
     }
-    still_ = ragdoll_.fastest() < kResting ? still_ + kTickSeconds : 0;
+    still_ = ragdoll_.fastest() < kResting && !astray_ ? still_ + kTickSeconds : 0;
     Pose lifted = pose;
     lifted.hips.y += frame_.lowered() * (1 - glm::smoothstep(0.0f, kIntoClip, now));
     Pose shown = frame_.out(mend_(lifted));
-    const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
+    const bool over =
+        landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
     if (over) rested_ = shown;
     return shown;
   }
@@ -485,6 +493,8 @@ class Shown {
   float into_clip_;       // s
   int steps_of_blow_;
   bool protecting_ = false, gathering_ = false;
+  bool astray_ = false;     // far from every lying pose
+  float astray_share_ = 0;  // 0 .. 1: that, as it sets in
   Pose protective_;
   float landed_ = -1;  // s: when the trunk met the ground; before that negative
   float still_ = 0;    // s for which everything has been at rest

@@ -56,6 +56,7 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));
   if (steps) carry(library, body.scale, answer.simulated.back(), now + ticks, answer.launch);
+  if (falls) answer.launch.end = now + static_cast<Tick>(answer.simulated.size());
   return answer;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "physics/partial.h"
+#include "physics/response.h"
 #include "planner/motion_tables.h"
 #include "scene/hit_fixture.h"
 
@@ -54,6 +55,53 @@ TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
   EXPECT_EQ(answer->timeline.tracks[0].frames.size(),
             static_cast<std::size_t>(answer->timeline.end) + 1);
   EXPECT_EQ(answer->timeline.events[0].type, EventType::hit);
+}
+
+// The frames of an answer in which a fallen body lies and gets up.
+struct GetUp {
+  HitAnswer answer;
+  std::size_t begin = 0;  // the first frame of the get-up
+
+  const Skeleton& skeleton() const { return answer.bodies.front().skeleton; }
+  const Pose& shown(std::size_t tick) const { return answer.timeline.tracks.front().frames[tick]; }
+  float moved(std::size_t tick) const {  // of the joint that moves most, m in a tick
+    return largest_joint_distance(world_pose(skeleton(), shown(tick - 1)),
+                                  world_pose(skeleton(), shown(tick)));
+  }
+};
+
+GetUp get_up_after(const HitQuery& hit) {
+  const auto answer = simulate_hit(default_library(), hit);
+  if (!answer) throw std::runtime_error(to_string(answer.error()));
+  GetUp result{*answer};
+  for (const Segment& one : result.answer.timeline.tracks.front().segments) {
+    if (one.kind == Kind::get_up) result.begin = static_cast<std::size_t>(one.launch.start) + 1;
+  }
+  return result;
+}
+
+// Legs that a low kick leaves folded under the body: no get-up begins like that.
+TEST(SingleHit, WhoFallsInAHeapGathersItselfBeforeItGetsUp) {
+  HitQuery hit = query("jab_low_kick", .4622);
+  hit.part = Part::right_thigh;
+  hit.impulse = {116.838f, 0, 8.694f};
+  hit.tone = .751f;
+  const GetUp up = get_up_after(hit);
+  ASSERT_GT(up.begin, 0u);
+  const auto lying = lying_poses(default_library(), up.skeleton(), Stance::orthodox);
+  EXPECT_LT(nearest_lying(up.skeleton(), lying, up.shown(up.begin)).apart, .1f);
+  for (std::size_t t = up.begin; t < up.begin + 108; ++t) EXPECT_LT(up.moved(t), .08f) << t;
+}
+
+// What keeps a shown glove over the floor may not shake an arm that lies still.
+TEST(SingleHit, WhoLiesDoesNotTremble) {
+  HitQuery hit = query("cross_right_1", .6810);
+  hit.part = Part::abdomen;
+  hit.impulse = {-83.136f, 0, 102.038f};
+  hit.tone = .6828f;
+  const GetUp up = get_up_after(hit);
+  ASSERT_GT(up.begin, 60u);
+  for (std::size_t t = up.begin - 60; t < up.begin; ++t) EXPECT_LT(up.moved(t), .004f) << t;
 }
 
 // The launch that answers the hit; without an action where there is none.
