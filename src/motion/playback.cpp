@@ -73,12 +73,21 @@ Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
 // a body that was simulated may lie or fly anywhere, and takes the longer the more it has to
 // change.
 float Playback::blend_of(const Pose& now, const Pose& after) const {
-  if (!simulated_) return settings_.blend_seconds;
-  // m/s2: of a limb that goes where it should be; a body that lies has the time
-  const float most_acceleration = lies() ? 14.0f : 25.0f;
+  // m/s2: of a limb that goes where it should be; a body that lies has the time, and between two
+  // clips nothing is to be caught up with
+  const float most_acceleration = lies() ? 14.0f : simulated_ ? 25.0f : 20.0f;
+  float seconds = settings_.blend_seconds;
+  for (const Side side : kSides) {
+    if (arm_by_joints(side, now)) {
+      seconds = std::max(seconds, swing_seconds(side, arm(side), now, most_acceleration));
+    }
+    if (simulated_ && lies()) {
+      seconds = std::max(seconds, swing_seconds(side, leg(side), now, most_acceleration));
+    }
+  }
+  if (!simulated_) return seconds;
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
   const WorldPose clip = world_pose(skeleton_, now), clip_next = world_pose(skeleton_, after);
-  float seconds = settings_.blend_seconds;
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const Vec3 moved = shown.position[j] - before.position[j];
     const float far = glm::distance(shown.position[j] + moved, clip.position[j]);
@@ -87,21 +96,24 @@ float Playback::blend_of(const Pose& now, const Pose& after) const {
     seconds = std::max({seconds, std::sqrt(5.8f * far / most_acceleration),
                         3.9f * fast / (2 * most_acceleration)});
   }
-  // Limbs that go by their joints swing: what they carry goes the length of the arc.
-  for (const Side side : kSides) {
-    for (const Limb& limb : {arm(side), leg(side)}) {
-      if (limb.root == leg(side).root && !lies()) continue;
-      const std::size_t j = index(limb.root);
-      const BallJoint joint = ball_joint(limb);
-      const Vec3 turns =
-          ball_turns(joint, side, shown_.rotation[j]) - ball_turns(joint, side, now.rotation[j]);
-      const Vec3 swing = turns - joint.along * glm::dot(turns, joint.along);
-      const float arc = glm::length(swing) * reach_share(skeleton_, limb, clip) *
-                        (skeleton_.bone(limb.middle) + skeleton_.bone(limb.end));
-      seconds = std::max(seconds, std::sqrt(5.8f * arc / most_acceleration));
-    }
-  }
   return std::min(seconds, settings_.longest_blend);
+}
+
+// The same of a limb that goes by its joints: what it carries goes the length of the arc.
+float Playback::swing_seconds(Side side, const Limb& limb, const Pose& now,
+                              float most_acceleration) const {
+  const std::size_t j = index(limb.root);
+  const BallJoint joint = ball_joint(limb);
+  const Vec3 turns =
+      ball_turns(joint, side, shown_.rotation[j]) - ball_turns(joint, side, now.rotation[j]);
+  const Vec3 swing = turns - joint.along * glm::dot(turns, joint.along);
+  const float bends = flexion(skeleton_, limb, shown_.rotation[index(limb.middle)]) -
+                      flexion(skeleton_, limb, now.rotation[index(limb.middle)]);
+  const float lower = skeleton_.bone(limb.end);
+  const float arc = glm::length(swing) * reach_share(skeleton_, limb, world_pose(skeleton_, now)) *
+                        (skeleton_.bone(limb.middle) + lower) +
+                    std::abs(bends) * lower;
+  return std::sqrt(5.8f * arc / most_acceleration);
 }
 
 // The hips of a body that is up are back sooner than its farthest limb: legs that go where the clip
@@ -136,8 +148,14 @@ void Playback::stitch(const Pose& now, const Pose& after) {
         rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j], after.rotation[j],
                        seconds, simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
+  const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
+                                              arm_by_joints(Side::right, now)};
   flexion_.fill({});
-  if (simulated_) stitch_hinges(now, after);
+  for (const Side side : kSides) {
+    const auto i = static_cast<std::size_t>(side);
+    if (arms_by_joints[i]) stitch_hinge(arm(side), now, after);
+    if (simulated_) stitch_hinge(leg(side), now, after);
+  }
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
@@ -154,8 +172,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
       hip_joints_[i] = root_decay(side, leg(side), before_, shown_, now, after, seconds,
                                   lever_of(skeleton_, leg(side).root));
     }
-    // After a simulation arms go by their joints: led by the hand, their elbows would turn over.
-    if (simulated_) {
+    if (arms_by_joints[i]) {
       seam_shoulder_[i] =
           ball_turns(ball_joint(arm(side)), side, shown_.rotation[index(arm(side).root)]);
       shoulders_[i] = root_decay(side, arm(side), before_, shown_, now, after, seconds,
@@ -182,7 +199,9 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
                              after.rotation[end], blend_seconds_);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
-  foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
+  foot.reach = simulated_ || foot.by_joints
+                   ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_))
+                   : 0.0f;
   foot.reach_left = 1;
   foot.clip_turn = now.rotation[end];
   // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
@@ -199,7 +218,8 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   const Vec3 velocity = (moved - clip_moved) / kTickSeconds;
   if (foot.mode == Mode::swing) {
     begin_move(foot, Mode::swing, offset, velocity, blend_seconds_);
-  } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown) {
+  } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown &&
+             glm::length(on_ground(moved)) < kLandingSpeed * kTickSeconds) {
     stand(foot, skeleton_.toe_height());
   } else {
     // Its goal has moved: no less time than that takes at kFootAcceleration (blend_of).
@@ -261,7 +281,7 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
-  if (after_simulation_) bend_hinges(clip_pose, pose);
+  bend_hinges(clip_pose, pose);
   turn_roots(clip_pose, pose);
   place_feet(clip_pose, contacts, pose);
   place_hands(clip_pose, pose);
@@ -497,28 +517,38 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
   }
 }
 
-// After a simulation knees and elbows go by their flexion, and apart from it by what turns beside
-// the hinge: as one turn, that of a bent elbow goes anywhere.
-void Playback::stitch_hinges(const Pose& now, const Pose& after) {
-  for (const Side side : kSides) {
-    for (const Limb& limb : {arm(side), leg(side)}) {
-      const std::size_t j = index(limb.middle);
-      const auto bent = [&](const Pose& pose) {
-        return flexion(skeleton_, limb, pose.rotation[j]);
-      };
-      const auto beside = [&](const Pose& pose) {
-        return glm::angleAxis(-bent(pose), hinge_axis(limb)) * pose.rotation[j];
-      };
-      const float lever = lever_of(skeleton_, limb.middle);
-      const float was = bent(before_), is = bent(shown_), clip = bent(now);
-      const float velocity = (is - was - (bent(after) - clip)) / kTickSeconds;
-      seam_flexion_[j] = is;
-      flexion_[j] = {Vec3{2 * is - was - clip, 0, 0}, Vec3{velocity, 0, 0}, blend_seconds_,
-                     stopping_seconds(Vec3{velocity * lever, 0, 0})};
-      rotation_[j] = rotation_decay(beside(before_), beside(shown_), beside(now), beside(after),
-                                    blend_seconds_, lever);
-    }
-  }
+// Led by the hand, the elbow of an arm that comes from a simulation would turn over, and so would
+// one whose hand passes nearer to its shoulder than it is before and after.
+bool Playback::arm_by_joints(Side side, const Pose& now) const {
+  if (simulated_) return true;
+  constexpr float kPassesNear = .8f;
+  const auto hand = [&](const Pose& pose) {
+    const WorldPose world = world_pose(skeleton_, pose);
+    return world.position[index(arm(side).end)] - world.position[index(arm(side).root)];
+  };
+  const Vec3 from = hand(shown_), to = hand(now), way = to - from;
+  const float share =
+      std::clamp(-glm::dot(from, way) / std::max(1e-6f, glm::dot(way, way)), 0.0f, 1.0f);
+  return glm::length(from + share * way) <
+         kPassesNear * std::min(glm::length(from), glm::length(to));
+}
+
+// Where limbs go by their joints, knees and elbows go by their flexion, and apart from it by what
+// turns beside the hinge: as one turn, that of a bent elbow goes anywhere.
+void Playback::stitch_hinge(const Limb& limb, const Pose& now, const Pose& after) {
+  const std::size_t j = index(limb.middle);
+  const auto bent = [&](const Pose& pose) { return flexion(skeleton_, limb, pose.rotation[j]); };
+  const auto beside = [&](const Pose& pose) {
+    return glm::angleAxis(-bent(pose), hinge_axis(limb)) * pose.rotation[j];
+  };
+  const float lever = lever_of(skeleton_, limb.middle);
+  const float was = bent(before_), is = bent(shown_), clip = bent(now);
+  const float velocity = (is - was - (bent(after) - clip)) / kTickSeconds;
+  seam_flexion_[j] = is;
+  flexion_[j] = {Vec3{2 * is - was - clip, 0, 0}, Vec3{velocity, 0, 0}, blend_seconds_,
+                 stopping_seconds(Vec3{velocity * lever, 0, 0})};
+  rotation_[j] = rotation_decay(beside(before_), beside(shown_), beside(now), beside(after),
+                                blend_seconds_, lever);
 }
 
 // A knee or an elbow that carries its speed on may pass straight, or fold: it slows before.

@@ -82,6 +82,7 @@ class Playback {
 
   // How long the difference to a clip takes to fall to nothing.
   float blend_of(const Pose& now, const Pose& after) const;
+  float swing_seconds(Side side, const Limb& limb, const Pose& now, float most_acceleration) const;
   Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool lies() const;
   bool stands_still(const Foot& foot) const;
@@ -95,7 +96,8 @@ class Playback {
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Side side, Quat clip_turn);
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
-  void stitch_hinges(const Pose& now, const Pose& after);
+  bool arm_by_joints(Side side, const Pose& now) const;
+  void stitch_hinge(const Limb& limb, const Pose& now, const Pose& after);
   void bend_hinges(const Pose& clip_pose, Pose& pose);
   void turn_roots(const Pose& clip_pose, Pose& pose);
   void place_hands(const Pose& clip_pose, Pose& pose);

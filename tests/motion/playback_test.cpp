@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "motion/ik.h"
 #include "motion/pose_near.h"
 #include "motion/synthetic.h"
 
@@ -382,6 +383,24 @@ TEST(Playback, ElbowsDoNotBendBackwardsWhenAPunchIsBrokenOff) {
     EXPECT_GT(least_elbow(shown), 0) << "broken off at " << ticks;
     EXPECT_LT(position_jump(shown), 0.02f) << "broken off at " << ticks;
   }
+}
+
+// From a hand that hangs behind the hip to one before the chin: in a line it would pass the
+// shoulder, and the elbow would be thrown aside.
+TEST(Playback, AnArmWhoseHandWouldPassItsShoulderGoesByItsJoints) {
+  const Clip idle = test::idle_clip(kSkeleton);
+  Clip low = idle;
+  for (Pose& pose : low.frames) {
+    const WorldPose world = world_pose(kSkeleton, pose);
+    const Vec3 shoulder = world.position[index(Joint::left_upper_arm)];
+    move_limb_end(kSkeleton, arm(Side::left), shoulder + Vec3{.05f, -.28f, -.06f}, 1, pose);
+  }
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, low, {}, 30, shown);
+  play(playback, idle, {}, 60, shown);
+  EXPECT_LT(velocity_jump(shown), kAddedJump);
+  EXPECT_LT(position_jump(shown), 0.02f);
 }
 
 TEST(Playback, AFlatSoleLiesFlatWhileItIsHeld) {
