@@ -319,6 +319,7 @@ void Bout::commit_touch(const Touch& touch) {
           blow_of(stage_.body(attacker), stage_.shown(attacker), stage_.body(target),
                   stage_.shown(target), touch.contact, strike.kind),
           event);
+  if (fighter(attacker).launch.action == touch.action) stage_.land(attacker, touch.contact);
 }
 
 // A body that falls upon another hits it, once a fall.

@@ -10,16 +10,14 @@ namespace ringcraft {
 
 namespace {
 
-struct Mover {
-  Limb limb;
-  std::array<Part, 2> parts;  // end first
-};
-constexpr std::array<Mover, 4> kMovers = {{
-    {arm(Side::left), {Part::left_hand, Part::left_forearm}},
-    {arm(Side::right), {Part::right_hand, Part::right_forearm}},
-    {leg(Side::left), {Part::left_foot, Part::left_shin}},
-    {leg(Side::right), {Part::right_foot, Part::right_shin}},
+// Of each limb, the parts that keep out, the end first.
+constexpr std::array<std::array<Part, 2>, 4> kParts = {{
+    {Part::left_hand, Part::left_forearm},
+    {Part::right_hand, Part::right_forearm},
+    {Part::left_foot, Part::left_shin},
+    {Part::right_foot, Part::right_shin},
 }};
+constexpr int kRounds = 3;  // the way out of one part may lead the other into something else
 
 Vec3 shortened(Vec3 way, float most) {
   const float length = glm::length(way);
@@ -49,7 +47,7 @@ Vec3 way_out(const Capsule& part, std::span<const BodyCapsules> others, Vec3 awa
 }
 
 void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
-  const Limb& limb = kMovers[mover].limb;
+  const Limb& limb = kArmsAndLegs[mover];
   const WorldPose world = world_pose(body.skeleton, pose);
   const Vec3 fallback = mover < 2 ? -kUp : world.rotation[0] * kForward;
   LimbTarget target;
@@ -61,35 +59,31 @@ void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
 
 }  // namespace
 
-LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
-                     std::span<const BodyCapsules> others) {
-  LimbOffsets offsets{};
-  if (others.empty()) return offsets;
+LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
+                     std::span<const BodyCapsules> others, const LimbOffsets& now) {
+  LimbOffsets offsets;
   const Vec3 away = pose.rotation[0] * -kForward;
-  for (std::size_t m = 0; m < kMovers.size(); ++m) {
-    if ((m == 2 && held.left) || (m == 3 && held.right)) continue;
+  for (std::size_t m = 0; m < kParts.size(); ++m) {
+    Vec3& offset = offsets[m];
+    offset = now[m] - shortened(now[m], kComingFree * kTickSeconds);
+    if (others.empty() || (m == 2 && held.left) || (m == 3 && held.right)) continue;
     Pose moved = pose;
-    for (const Part part : kMovers[m].parts) {
-      const BodyCapsules own = capsules(body, world_pose(body.skeleton, moved));
-      const Vec3 way = way_out(own[index(part)], others, away);
-      if (way == Vec3{}) continue;
-      offsets[m] = shortened(offsets[m] + way, kMostKeptOut[m]);
-      moved = pose;
-      move_end(body, m, offsets[m], moved);
+    if (offset != Vec3{}) move_end(body, m, offset, moved);
+    bool clear = false;
+    for (int round = 0; round < kRounds && !clear; ++round) {
+      clear = true;
+      for (const Part part : kParts[m]) {
+        const BodyCapsules own = capsules(body, world_pose(body.skeleton, moved));
+        const Vec3 way = way_out(own[index(part)], others, away);
+        if (way == Vec3{}) continue;
+        clear = false;
+        offset = shortened(offset + way, kMostKeptOut[m]);
+        moved = pose;
+        move_end(body, m, offset, moved);
+      }
     }
   }
   return offsets;
-}
-
-LimbOffsets approached(const LimbOffsets& now, const LimbOffsets& wanted) {
-  LimbOffsets next;
-  for (std::size_t m = 0; m < now.size(); ++m) {
-    const Vec3 change = wanted[m] - now[m];
-    const bool stopped = glm::dot(change, now[m]) >= 0 && glm::dot(wanted[m], now[m]) >= 0 &&
-                         glm::length(wanted[m]) > glm::length(now[m]);
-    next[m] = stopped ? wanted[m] : now[m] + shortened(change, kComingFree * kTickSeconds);
-  }
-  return next;
 }
 
 Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets) {

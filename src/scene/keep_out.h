@@ -9,20 +9,20 @@
 
 namespace ringcraft {
 
-// How far the ends of left arm, right arm, left leg and right leg are held off their motion, m.
+inline constexpr std::array<Limb, 4> kArmsAndLegs = {arm(Side::left), arm(Side::right),
+                                                     leg(Side::left), leg(Side::right)};
+
+// How far the ends of kArmsAndLegs are held off their motion, m.
 using LimbOffsets = std::array<Vec3, 4>;
 
 inline constexpr std::array<float, 4> kMostKeptOut = {0.20f, 0.20f, 0.35f, 0.35f};  // m
 
-// The offsets that move hands, forearms, and feet and shins that are not `held` out of the
-// `others`, each by at most its kMostKeptOut. Zero where nothing penetrates.
-LimbOffsets ways_out(const BodyModel& body, const Pose& pose, FootContacts held,
-                     std::span<const BodyCapsules> others);
-
-// One tick from `now` toward `wanted`: a limb that is stopped is stopped at once, but it comes
-// free, or is turned aside, no faster than kComingFree.
+// One tick on from `now`: limbs come back to their motion, no faster than kComingFree, as far as
+// hands, forearms, and feet and shins that are not `held`, stay out of the `others`, each limb held
+// off by at most its kMostKeptOut. On the side on which it is: none passes through another.
 inline constexpr float kComingFree = 1.5f;  // m/s
-LimbOffsets approached(const LimbOffsets& now, const LimbOffsets& wanted);
+LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
+                     std::span<const BodyCapsules> others, const LimbOffsets& now);
 
 // `pose` with the ends of its limbs moved by the offsets, by two-link IK.
 Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets);

@@ -247,6 +247,7 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
     input.tone = query.tone;
     input.blow = blow_of(answer.bodies[1], stage.shown(kAttacker), answer.bodies[0], input.pose,
                          *contact, strike.kind);
+    stage.land(kAttacker, *contact);
     answer.distance = place.distance;
     finish(library, query, showing, input, answer);
     return answer;

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "motion/ik.h"
 #include "physics/partial.h"
+#include "planner/condition.h"
 #include "scene/answer.h"
 #include "scene/keep_out.h"
 
@@ -97,6 +98,7 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
   actor.gives = {};
+  actor.landed = {};
   if (actor.simulated.empty()) {
     actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
   }
@@ -114,6 +116,31 @@ Pose Stage::given_way(const Actor& actor, std::array<ArmGive, 2>& gives, const P
     gives[i].step();
     if (gives[i].at_rest()) continue;
     offsets[i] = short_of_the_body(actor.body, pose, side, gives[i].offset());
+  }
+  return with_offsets(actor.body, pose, offsets);
+}
+
+void Stage::land(FighterId fighter, const Contact& contact) {
+  Actor& actor = actors_[fighter.at()];
+  const auto limb = limb_of(contact.striker);
+  if (!limb) return;
+  actor.landed[*limb] = LandedLimb(actor.body, kArmsAndLegs[*limb], actor.playback.shown_before(),
+                                   actor.playback.shown(), contact);
+  actor.unhindered = stopped(actor, actor.landed, actor.unhindered);
+}
+
+// The pose with the limbs that have landed no farther than they were then. A leg that carries is
+// free.
+Pose Stage::stopped(const Actor& actor, std::array<LandedLimb, 4>& landed, const Pose& pose) {
+  LimbOffsets offsets{};
+  const WorldPose world = world_pose(actor.body.skeleton, pose);
+  const FootContacts held = actor.playback.held();
+  if (held.left) landed[2] = {};
+  if (held.right) landed[3] = {};
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    const Vec3 end = world.position[index(kArmsAndLegs[i].end)];
+    offsets[i] = landed[i].held_back(end);
+    landed[i].let_go_behind(end);
   }
   return with_offsets(actor.body, pose, offsets);
 }
@@ -145,7 +172,9 @@ void Stage::show(Tick tick) {
       actor.was_simulated = false;
       actor.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
     }
-    actor.unhindered = given_way(actor, actor.gives, actor.playback.shown());
+    for (LandedLimb& limb : actor.landed) limb.step();
+    actor.unhindered =
+        stopped(actor, actor.landed, given_way(actor, actor.gives, actor.playback.shown()));
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     amend(actor, actor.kept_out);
@@ -194,8 +223,8 @@ void Stage::keep_out_and_record() {
       if (&other != &actor && apart < kArmsReach * actor.body.scale)
         near.push_back(other.swept.after);
     }
-    const LimbOffsets wanted = ways_out(actor.body, actor.unhindered, actor.playback.held(), near);
-    amend(actor, approached(actor.kept_out, wanted));
+    amend(actor,
+          kept_out(actor.body, actor.unhindered, actor.playback.held(), near, actor.kept_out));
     actor.track.frames.push_back(actor.playback.shown());
     actor.track.contacts.push_back(actor.playback.held());
   }
@@ -214,6 +243,7 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
   const Clip& clip = library_.action(actor.launch.action).clip;
   Playback ahead = actor.playback;
   std::array<ArmGive, 2> gives = actor.gives;
+  std::array<LandedLimb, 4> landed = actor.landed;
   std::vector<Pose> poses{actor.playback.shown()};
   for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
     const auto at = static_cast<std::size_t>(next - actor.simulated_from);
@@ -222,7 +252,9 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
     } else {
       const Pose& pose =
           ahead.next(clip_pose(actor, next), clip.contacts_at(clip_age(actor, next)));
-      poses.push_back(with_offsets(actor.body, given_way(actor, gives, pose), actor.kept_out));
+      for (LandedLimb& limb : landed) limb.step();
+      poses.push_back(with_offsets(
+          actor.body, stopped(actor, landed, given_way(actor, gives, pose)), actor.kept_out));
     }
   }
   return poses;

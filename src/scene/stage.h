@@ -10,6 +10,7 @@
 #include "physics/limits.h"
 #include "scene/give.h"
 #include "scene/keep_out.h"
+#include "scene/landed.h"
 #include "scene/pace.h"
 
 namespace ringcraft {
@@ -35,6 +36,9 @@ class Stage {
 
   // The arm of a guard that held a blow is driven back at `velocity`, m/s, and springs back.
   void drive_back(FighterId fighter, Part part, Vec3 velocity);
+
+  // The limb that met something with a blow in this tick stops there, in this tick already.
+  void land(FighterId fighter, const Contact& contact);
 
   // Moves a fighter's launch on the ground; the feet follow by steps of their own.
   void shift(FighterId fighter, Vec3 offset);
@@ -75,19 +79,21 @@ class Stage {
     std::vector<Pose> simulated{};  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool was_simulated = false;
-    bool seam = false;               // a launch began that is not shown yet
-    Pose unhindered{};               // this tick's pose as if nothing stood in its way
-    LimitExcesses free{};            // how far joints may go before they slow
-    std::array<float, 2> swings{};   // 0 the foot carries .. 1: its leg swings
-    LimitExcesses free_more{};       // of that, what the last seam left
-    std::array<ArmGive, 2> gives{};  // what blows on its guard have left
-    LimbOffsets kept_out{};          // what keeps its limbs out of the other bodies
+    bool seam = false;                   // a launch began that is not shown yet
+    Pose unhindered{};                   // this tick's pose as if nothing stood in its way
+    LimitExcesses free{};                // how far joints may go before they slow
+    std::array<float, 2> swings{};       // 0 the foot carries .. 1: its leg swings
+    LimitExcesses free_more{};           // of that, what the last seam left
+    std::array<ArmGive, 2> gives{};      // what blows on its guard have left
+    std::array<LandedLimb, 4> landed{};  // what its own blows have
+    LimbOffsets kept_out{};              // what keeps its limbs out of the other bodies
     SweptBody swept{};
     FighterTrack track{};
   };
 
   void free_joints(Actor& actor, Tick tick) const;
   static Pose given_way(const Actor& actor, std::array<ArmGive, 2>& gives, const Pose& pose);
+  static Pose stopped(const Actor& actor, std::array<LandedLimb, 4>& landed, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
   Pose clip_pose(const Actor& actor, Tick tick) const;
   static Tick clip_age(const Actor& actor, Tick tick);

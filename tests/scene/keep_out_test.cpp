@@ -1,0 +1,120 @@
+// What keeps limbs out of other bodies, and what stops them where they have landed.
+#include "scene/keep_out.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/ticks.h"
+#include "physics/penetration.h"
+#include "physics/stances.h"
+#include "scene/landed.h"
+
+namespace ringcraft {
+namespace {
+
+class KeepOut : public ::testing::Test {
+ protected:
+  const BodyModel body = make_body({});
+  const Pose pose = fighting_stance(body);
+  const Vec3 glove = world_pose(body.skeleton, pose).position[index(Joint::left_hand)];
+
+  // A bar across the way of the left glove, `before` it; everything else is far away.
+  BodyCapsules bar(float before) const {
+    BodyCapsules other;
+    other.fill({{0, 50, 0}, {0, 51, 0}, .05f});
+    const Vec3 at = glove + Vec3{0, 0, before};
+    other[0] = {at - Vec3{.3f, 0, 0}, at + Vec3{.3f, 0, 0}, .05f};
+    return other;
+  }
+  float depth(const LimbOffsets& offsets, const BodyCapsules& other) const {
+    const Pose shown = with_offsets(body, pose, offsets);
+    const Capsule own = capsules(body, world_pose(body.skeleton, shown))[index(Part::left_hand)];
+    return own.radius + other[0].radius -
+           segment_distance(own.a, own.b, other[0].a, other[0].b).distance;
+  }
+};
+
+TEST_F(KeepOut, WhatNothingMeetsStaysWhereItIs) {
+  const std::array<BodyCapsules, 1> others{bar(1)};
+  EXPECT_EQ(kept_out(body, pose, {true, true}, others, {}), LimbOffsets{});
+}
+
+// A bar goes through the place where the glove would be, 6 m/s fast.
+TEST_F(KeepOut, AGloveIsPushedAlongAndNotPassedThrough) {
+  LimbOffsets offsets{};
+  for (float before = .3f; before > -.04f; before -= .05f) {
+    const std::array<BodyCapsules, 1> others{bar(before)};
+    offsets = kept_out(body, pose, {true, true}, others, offsets);
+    EXPECT_LT(depth(offsets, others[0]), .01f) << before;
+    EXPECT_LE(offsets[0].z, 0) << before;
+  }
+  EXPECT_LT(offsets[0].z, -.05f);
+  EXPECT_EQ(offsets[1], Vec3{});
+}
+
+TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
+  LimbOffsets offsets{};
+  offsets[0] = {0, 0, -.05f};
+  const std::array<BodyCapsules, 1> others{bar(1)};
+  Tick ticks = 0;
+  for (; offsets != LimbOffsets{} && ticks < kTicksPerSecond; ++ticks) {
+    const Vec3 before = offsets[0];
+    offsets = kept_out(body, pose, {true, true}, others, offsets);
+    EXPECT_LE(glm::distance(before, offsets[0]), kComingFree * kTickSeconds + 1e-6f);
+  }
+  EXPECT_NEAR(seconds(ticks), .05 / static_cast<double>(kComingFree), .01);
+}
+
+class Landed : public KeepOut {
+ protected:
+  // The glove goes 6 cm in the tick, and meets something after two thirds of that.
+  LandedLimb landed() const {
+    Pose after = pose;
+    after.hips += Vec3{0, 0, .06f};
+    Contact contact;
+    contact.striker = Part::left_hand;
+    contact.velocity = {0, 0, 7.2f};
+    contact.normal = {0, 0, -1};
+    contact.share = 2.0f / 3;
+    return LandedLimb(body, arm(Side::left), pose, after, contact);
+  }
+};
+
+TEST_F(Landed, TheLimbGoesNoFartherThanTheContact) {
+  const LandedLimb limb = landed();
+  EXPECT_TRUE(limb.holds());
+  EXPECT_NEAR(limb.held_back(glove + Vec3{0, 0, .06f}).z, -.02f, 1e-4f);
+  EXPECT_NEAR(limb.held_back(glove + Vec3{.3f, .1f, .50f}).z, -.46f, 1e-4f);
+  EXPECT_EQ(limb.held_back(glove + Vec3{.3f, .1f, .03f}), Vec3{});  // on its way back
+  EXPECT_EQ(LandedLimb().held_back(glove), Vec3{});
+}
+
+TEST_F(Landed, ALimbThatIsOnItsWayBackIsFree) {
+  LandedLimb limb = landed();
+  limb.let_go_behind(glove + Vec3{0, 0, .035f});
+  EXPECT_TRUE(limb.holds());
+  limb.let_go_behind(glove + Vec3{0, 0, .02f});
+  EXPECT_FALSE(limb.holds());
+}
+
+// One that swings through, as a kick does, is let go slowly.
+TEST_F(Landed, ALimbThatPressesOnComesFreeAfterAWhile) {
+  LandedLimb limb = landed();
+  const Vec3 wanted = glove + Vec3{0, 0, .2f};
+  const float first = limb.held_back(wanted).z;
+  float before = first;
+  Tick still = 0, all = 0;
+  for (; limb.held_back(wanted) != Vec3{} && all < kTicksPerSecond; ++all) {
+    limb.step();
+    const float now = limb.held_back(wanted).z;
+    EXPECT_LE(now - before, kComingFree * kTickSeconds + 1e-5f);
+    if (now == first) ++still;
+    before = now;
+  }
+  EXPECT_NEAR(seconds(still), .15, .01);
+  EXPECT_LT(seconds(all), .4);
+}
+
+}  // namespace
+}  // namespace ringcraft
