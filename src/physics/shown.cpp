@@ -26,11 +26,11 @@ constexpr float kFade = .6f;  // s after the landing in which the muscles let go
 constexpr float kGatherFrom = .25f, kGatherUntil = 1.6f;  // s after the landing
 constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
 constexpr float kGatherTone = .6f;
-constexpr float kAstray = .08f;   // m rms: a body so far from a lying pose goes on gathering itself
+constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
 constexpr float kMostGather = 3.0f;  // s after the landing
-constexpr float kRolling = .6f;   // m/s: a body that moves faster has not found its lying pose
-constexpr float kResting = .15f;  // m/s
-constexpr float kRestFor = .25f;  // s
+constexpr float kRolling = .6f;      // m/s: a body that moves faster has not found its lying pose
+constexpr float kResting = .15f;     // m/s
+constexpr float kRestFor = .25f;     // s
 constexpr float kMostAfterLanding = 4.0f;  // s
 constexpr Tick kReposes = 12;              // a body that has come to rest
 constexpr Tick kMostLater = 240;           // than asked for, a body comes to rest
@@ -473,8 +473,7 @@ class Shown {
     Pose lifted = pose;
     lifted.hips.y += frame_.lowered() * (1 - glm::smoothstep(0.0f, kIntoClip, now));
     Pose shown = frame_.out(mend_(lifted));
-    const bool over =
-        landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
+    const bool over = landed_ >= 0 && (still_ >= kRestFor || now - landed_ > kMostAfterLanding);
     if (over) rested_ = shown;
     return shown;
   }
