@@ -199,9 +199,7 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
                              after.rotation[end], blend_seconds_);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
-  foot.reach = simulated_ || foot.by_joints
-                   ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_))
-                   : 0.0f;
+  foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
   foot.reach_left = 1;
   foot.clip_turn = now.rotation[end];
   // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
