@@ -72,13 +72,14 @@ Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
 // velocity v with at most 3.9 v / T. A clip that is stitched to a clip is near it by construction;
 // a body that was simulated may lie or fly anywhere, and takes the longer the more it has to
 // change.
-float Playback::blend_of(const Pose& now, const Pose& after) const {
+float Playback::blend_of(const Pose& now, const Pose& after,
+                         const std::array<bool, 2>& arms_by_joints) const {
   // m/s2: of a limb that goes where it should be; a body that lies has the time, and between two
   // clips nothing is to be caught up with
   const float most_acceleration = lies() ? 14.0f : simulated_ ? 25.0f : 20.0f;
   float seconds = settings_.blend_seconds;
   for (const Side side : kSides) {
-    if (arm_by_joints(side, now)) {
+    if (arms_by_joints[static_cast<std::size_t>(side)]) {
       seconds = std::max(seconds, swing_seconds(side, arm(side), now, most_acceleration));
     }
     if (simulated_ && lies()) {
@@ -136,7 +137,9 @@ bool Playback::lies() const {
 
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
-  const float seconds = blend_seconds_ = blend_of(now, after);
+  const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
+                                              arm_by_joints(Side::right, now)};
+  const float seconds = blend_seconds_ = blend_of(now, after, arms_by_joints);
   after_simulation_ = simulated_;
   const Vec3 moved = shown_.hips - before_.hips;
   const Vec3 clip_moved = after.hips - now.hips;
@@ -148,8 +151,6 @@ void Playback::stitch(const Pose& now, const Pose& after) {
         rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j], after.rotation[j],
                        seconds, simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
-  const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
-                                              arm_by_joints(Side::right, now)};
   flexion_.fill({});
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);

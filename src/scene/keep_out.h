@@ -9,6 +9,7 @@
 
 namespace ringcraft {
 
+// In the order of limb_of() (planner/condition.h).
 inline constexpr std::array<Limb, 4> kArmsAndLegs = {arm(Side::left), arm(Side::right),
                                                      leg(Side::left), leg(Side::right)};
 

@@ -40,17 +40,20 @@ TEST_F(KeepOut, WhatNothingMeetsStaysWhereItIs) {
   EXPECT_EQ(kept_out(body, pose, {true, true}, others, {}), LimbOffsets{});
 }
 
-// A bar goes through the place where the glove would be, 6 m/s fast.
+// A bar goes through the place where the glove would be and past it, 6 m/s fast.
 TEST_F(KeepOut, AGloveIsPushedAlongAndNotPassedThrough) {
   LimbOffsets offsets{};
-  for (float before = .3f; before > -.04f; before -= .05f) {
-    const std::array<BodyCapsules, 1> others{bar(before)};
+  for (int tick = 0; tick <= 7; ++tick) {
+    const std::array<BodyCapsules, 1> others{bar(.3f - .05f * static_cast<float>(tick))};
     offsets = kept_out(body, pose, {true, true}, others, offsets);
-    EXPECT_LT(depth(offsets, others[0]), .01f) << before;
-    EXPECT_LE(offsets[0].z, 0) << before;
+    EXPECT_LT(depth(offsets, others[0]), .01f) << tick;
+    EXPECT_LE(offsets[0].z, 0) << tick;
   }
   EXPECT_LT(offsets[0].z, -.05f);
   EXPECT_EQ(offsets[1], Vec3{});
+  // Who asks anew where the bar is now would come out on its other side.
+  const std::array<BodyCapsules, 1> others{bar(-.05f)};
+  EXPECT_GT(kept_out(body, pose, {true, true}, others, {})[0].z, 0);
 }
 
 TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
