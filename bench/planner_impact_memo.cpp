@@ -12,7 +12,8 @@
 namespace ringcraft {
 namespace {
 
-std::vector<LandedBlow> blows_on(const MotionLibrary& library, std::size_t count) {
+std::vector<LandedBlow> blows_on(const MotionTables& tables, std::size_t count) {
+  const MotionLibrary& library = tables.library();
   Random random(7);
   std::vector<ActionId> attacks;
   for (const ActionId id : library.launchable()) {
@@ -23,12 +24,12 @@ std::vector<LandedBlow> blows_on(const MotionLibrary& library, std::size_t count
   blows.reserve(count);
   while (blows.size() < count) {
     LandedBlow blow;
-    blow.attack = attacks[static_cast<std::size_t>(random.below(static_cast<int>(attacks.size())))];
-    const Strike& strike = library.action(blow.attack).strikes.front();
-    blow.attack_age = strike.active_begin;
+    const ActionId attack =
+        attacks[static_cast<std::size_t>(random.below(static_cast<int>(attacks.size())))];
+    const Strike& strike = library.action(attack).strikes.front();
+    blow.attack = {&tables.at(attack), strike.active_begin};
     blow.kind = strike.kind;
-    blow.struck_action = struck;
-    blow.struck_age = 6 * random.below(3);
+    blow.struck = {&tables.at(struck), 6 * random.below(3)};
     constexpr std::array<Part, 3> kStruck{Part::head, Part::chest, Part::abdomen};
     blow.contact.striker = *part_of(strike.joint);
     blow.contact.struck = kStruck[static_cast<std::size_t>(random.below(3))];
@@ -45,7 +46,7 @@ void impulse_steps_of_a_tree(benchmark::State& bench) {
   using Clock = std::chrono::steady_clock;
   const MotionLibrary library = synthetic::library();
   const MotionTables tables(library, make_body({}));
-  const std::vector<LandedBlow> blows = blows_on(library, 60);
+  const std::vector<LandedBlow> blows = blows_on(tables, 60);
   std::vector<double> ratios;
   for (auto _ : bench) {
     const auto begin = Clock::now();

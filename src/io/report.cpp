@@ -182,10 +182,13 @@ json physics_json(const Timeline& timeline, const RunFacts& facts) {
                   {"impulse_steps", facts.impulse_steps},
                   {"mean_impulse_Ns", rounded(mean, 4)},
                   {"foreseen", facts.foreseen},
-                  {"foreseen_agreement", nullptr}};
+                  {"foreseen_agreement", nullptr},
+                  {"foreseen_at_launch_agreement", nullptr}};
   if (impacts > 0) {
     physics["foreseen_agreement"] =
         rounded(static_cast<double>(agreed) / static_cast<double>(impacts), 4);
+    physics["foreseen_at_launch_agreement"] =
+        rounded(static_cast<double>(facts.agreed_at_launch) / static_cast<double>(impacts), 4);
   }
   return physics;
 }

@@ -29,7 +29,9 @@ struct RunFacts {
   std::uint64_t memo_hits = 0, memo_misses = 0;
   std::uint64_t impulse_steps = 0;  // in all: committed, and first-time in the tree
   std::uint64_t foreseen = 0;       // contacts that the tree had told of the strikes in flight
-  bool interrupted = false;         // the report covers what was finished
+  std::uint64_t agreed_at_launch =
+      0;                     // contacts that it told rightly when somebody last began something
+  bool interrupted = false;  // the report covers what was finished
 };
 
 // What the clock said.
@@ -42,7 +44,8 @@ struct ClockFacts {
 // Every field of design section 8, the same for the same fight. A fighter's recovery_steps,
 // knockdowns and knockouts are those it suffered; hits_taken are clean ones. foreseen_agreement is
 // the share of the contacts that the tree foresaw from the actions in flight, with their kind of
-// response; null without a contact.
+// response, asked last in the tick before; foreseen_at_launch_agreement when somebody last began
+// something. Null without a contact.
 nlohmann::json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
                            const MotionLibrary& library, const RunFacts& facts);
 

@@ -82,10 +82,8 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
                       ? side(window.attacker).body
                       : setup_->others[static_cast<std::size_t>(window.attacker - 2)].body;
   blow.victim = side(window.victim).body;
-  blow.attack = flight.launch.action;
-  blow.struck_action = struck.table->id;
-  blow.attack_age = flight.table->clamped(flight.age(met.tick));
-  blow.struck_age = struck.table->clamped(struck.age(met.tick));
+  blow.attack = {flight.table, flight.table->clamped(flight.age(met.tick))};
+  blow.struck = {struck.table, struck.table->clamped(struck.age(met.tick))};
   blow.kind = flight.table->strikes[window.strike].strike.kind;
   blow.contact = met.contact;
   const Frame seen = relative(struck.frame_at(met.tick), flight.frame_at(met.tick));
@@ -140,9 +138,9 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   if (victim.health <= 0 && !lies) {  // nobody stands without health
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
-    answer.response = choose_response(side(event.victim).tables->library(), answer.outcome,
-                                      victim.flight.table->root_at(event.blow.struck_age).yaw,
-                                      victim.flight.table->action->stance);
+    answer.response =
+        choose_response(side(event.victim).tables->library(), answer.outcome,
+                        event.blow.struck.root().yaw, victim.flight.table->action->stance);
   }
   if (events_ != nullptr) events_->push_back(event);
   if (setup_->settings.prune.unanswered_hit && unanswered(node, event, *met.window.flight, move)) {

@@ -55,6 +55,7 @@ DuelNode Duel::root(const DuelSetup& setup, const FightState& state) {
     const FighterState& fighter = state.fighters[setup.side[i].id.at()];
     Duelist& duelist = node.side[i];
     duelist.flight = InFlight(*setup.side[i].tables, fighter.launch);
+    if (setup.side[i].in_flight != nullptr) duelist.flight.table = setup.side[i].in_flight;
     duelist.flight.launch.end = std::max(fighter.launch.end, state.now);
     duelist.health = fighter.health;
     duelist.balance = fighter.balance;

@@ -64,6 +64,7 @@ struct SideSetup {
   const MotionTables* tables = nullptr;
   int body = 0;  // index into the memo's tables
   FighterId id;
+  const ActionTable* in_flight = nullptr;  // of its launch as it is shown; null: its clip's
   const Style* style = nullptr;
   Weights weights;
   std::vector<std::int32_t> launch;  // F_control of each action, thousandths

@@ -33,10 +33,6 @@ int step_of(float value, float step, int most) {
   return static_cast<int>(std::clamp<long>(std::lround(value / step), 0, most));
 }
 
-Capsule part_capsule(const MotionTables& tables, ActionId action, Tick age, Part part) {
-  return tables.at(action).capsules_at(age)[index(part)];
-}
-
 // Appends the low `bits` bits of a field.
 class Packer {
  public:
@@ -112,55 +108,48 @@ template <class Mobility>
 Blow ImpactMemo::exact(const LandedBlow& blow, const Mobility& mobility) const {
   const Contact& contact = blow.contact;
   const Vec3 line = line_of_blow(contact);
-  const Capsule glove = part_capsule(*bodies_[static_cast<std::size_t>(blow.attacker)], blow.attack,
-                                     blow.attack_age, contact.striker);
-  const PartMobility& striker = mobility(blow.attacker, PoseMoment{blow.attack, blow.attack_age},
-                                         contact.striker, striking_tone(blow.kind));
-  const PartMobility& struck = mobility(
-      blow.victim, PoseMoment{blow.struck_action, blow.struck_age}, contact.struck, kStruckTone);
-  return blow_of(
-      contact, blow.kind,
-      striker.mass_along(knuckles(glove, blow.striking), yaw_rotation(-blow.attacker_yaw) * line),
-      struck.mass_along(contact.point, line));
+  const Vec3 at = knuckles(blow.attack.part(contact.striker), blow.striking);
+  const PartMobility striker =
+      mobility(blow.attacker, blow.attack, contact.striker, striking_tone(blow.kind));
+  const PartMobility struck = mobility(blow.victim, blow.struck, contact.struck, kStruckTone);
+  return blow_of(contact, blow.kind,
+                 striker.mass_along(at, yaw_rotation(-blow.attacker_yaw) * line),
+                 struck.mass_along(contact.point, line));
 }
 
 Blow ImpactMemo::exact(const LandedBlow& blow) const {
-  return exact(blow, [&](int body, PoseMoment moment, Part part, float tone) {
-    const MotionTables& tables = *bodies_[static_cast<std::size_t>(body)];
-    return mobility_of(tables.body(), tables.at(moment.action).pose_at(moment.age), part, tone);
+  return exact(blow, [&](int body, const BodyMoment& moment, Part part, float tone) {
+    return mobility_of(bodies_[static_cast<std::size_t>(body)]->body(), moment.pose(), part, tone);
   });
 }
 
 Blow ImpactMemo::kept(const LandedBlow& blow) {
-  return exact(
-      blow, [&](int body, PoseMoment moment, Part part, float tone) -> const PartMobility& {
-        const auto b = static_cast<std::size_t>(body);
-        Packer p;
-        p.add(moment.action.value, 13).add(moment.age, 12).add(static_cast<int>(part), 5);
-        p.add(std::lround(tone * 1000), 10);
-        return looked_up(mobilities_, &ImpactStore::mobilities, {p.a(), p.b(), worlds_[b]}, [&] {
-          const Pose& pose = bodies_[b]->at(moment.action).pose_at(moment.age);
-          return mobility_of(bodies_[b]->body(), pose, part, tone);
-        });
-      });
+  return exact(blow, [&](int body, const BodyMoment& moment, Part part, float tone) {
+    const auto b = static_cast<std::size_t>(body);
+    const auto compute = [&] { return mobility_of(bodies_[b]->body(), moment.pose(), part, tone); };
+    if (moment.table->in_flight()) return compute();  // no two moments of those are the same
+    Packer p;
+    p.add(moment.table->id.value, 13).add(moment.age, 12).add(static_cast<int>(part), 5);
+    p.add(std::lround(tone * 1000), 10);
+    return looked_up(mobilities_, &ImpactStore::mobilities, {p.a(), p.b(), worlds_[b]}, compute);
+  });
 }
 
-float ImpactMemo::root_yaw(const LandedBlow& blow) const {
-  const MotionTables& victim = *bodies_[static_cast<std::size_t>(blow.victim)];
-  return victim.at(blow.struck_action).root_at(blow.struck_age).yaw;
+std::uint64_t ImpactMemo::begin_motion() {
+  for (auto& shard : in_flight_answers_) shard.entries.clear();
+  for (auto& shard : in_flight_own_motions_) shard.entries.clear();
+  return ++motions_;
 }
 
 ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const LandedBlow& blow, Vec3 impulse) const {
   ImpulseSteps steps{};
   steps.victim = blow.victim;
-  const auto victim = static_cast<std::size_t>(blow.victim);
-  steps.moment = classes_[victim].of(blow.struck_action, blow.struck_age + size_.ticks / 2);
+  steps.moment = classes_[static_cast<std::size_t>(blow.victim)].of(
+      blow.struck.table->id, blow.struck.age + size_.ticks / 2);
   steps.struck = blow.contact.struck;
   steps.blocked = blow.contact.blocked;
-  steps.place =
-      place_of(part_capsule(*bodies_[victim], blow.struck_action, blow.struck_age, steps.struck),
-               impulse, blow.contact.point);
-  steps.azimuth = turn_step(yaw_of(impulse) - root_yaw(blow), size_.azimuths);
+  steps.place = place_of(blow.struck.part(steps.struck), impulse, blow.contact.point);
+  steps.azimuth = turn_step(yaw_of(impulse) - blow.struck.root().yaw, size_.azimuths);
   steps.elevation = elevation_step(impulse);
   const float size = glm::length(impulse);
   if (size >= kTouchImpulse) steps.impulse = step_of(size, size_.impulse, 1000);
@@ -170,40 +159,71 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const LandedBlow& blow, Vec3 impul
 ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const {
   const MotionTables& victim = *bodies_[static_cast<std::size_t>(steps.victim)];
   const ActionTable& action = victim.at(steps.moment.action);
-  const Tick age = action.clamped(steps.moment.age);
-  const float facing = action.root_at(age).yaw;
+  const BodyMoment struck{&action, action.clamped(steps.moment.age)};
+  const float facing = struck.root().yaw;
   const Vec3 line =
       yaw_rotation(facing) * direction_of(steps.azimuth, size_.azimuths, steps.elevation);
-  const Capsule struck = action.capsules_at(age)[index(steps.struck)];
+  Blow blow;
+  blow.part = steps.struck;
+  blow.point = point_of(struck.part(steps.struck), line, steps.place);
+  blow.impulse = line * (static_cast<float>(steps.impulse) * size_.impulse);
+  blow.blocked = steps.blocked;
+  return turned(stepped(victim, struck, blow, own), -facing);
+}
 
+ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& struck,
+                                 const Blow& blow, const KeptOwnMotion& own) {
+  const ActionTable& action = *struck.table;
   ImpactAnswer answer;
-  answer.impulse = static_cast<float>(steps.impulse) * size_.impulse;
+  answer.impulse = glm::length(blow.impulse);
   ImpactInput input;
-  input.pose = action.pose_at(age);
-  input.pose_before = action.pose_at(age - 1);
+  input.pose = struck.pose();
+  input.pose_before = action.pose_at(struck.age - 1);
   std::array<Pose, kImpulseStepTicks + 1> continued;
   for (Tick t = 0; t <= kImpulseStepTicks; ++t) {
-    continued[static_cast<std::size_t>(t)] = action.pose_at(age + t);
+    continued[static_cast<std::size_t>(t)] = action.pose_at(struck.age + t);
   }
   input.continued = continued;
-  input.blow.part = steps.struck;
-  input.blow.point = point_of(struck, line, steps.place);
-  input.blow.impulse = line * answer.impulse;
-  input.blow.blocked = steps.blocked;
-  input.contacts = action.action->clip.contacts_at(age);
+  input.blow = blow;
+  input.contacts = action.action->clip.contacts_at(action.clip_age(struck.age));
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
-  if (steps.impulse > 0) answer.outcome = impulse_step(victim.body(), input, own);
+  const bool touch = answer.impulse < kTouchImpulse;
+  if (!touch) answer.outcome = impulse_step(victim.body(), input, own);
   answer.response =
-      choose_response(victim.library(), answer.outcome, facing, action.action->stance);
+      choose_response(victim.library(), answer.outcome, struck.root().yaw, action.action->stance);
   if (answer.outcome.response == ResponseKind::absorb) {
     answer.share = share_foreseen(answer.outcome, victim.at(answer.response).way);
   }
-  return turned(answer, -facing);
+  return answer;
+}
+
+ImpactAnswer ImpactMemo::in_flight_answer(const LandedBlow& landed, const Blow& blow,
+                                          const KeptOwnMotion& own) const {
+  ImpactAnswer answer =
+      stepped(*bodies_[static_cast<std::size_t>(landed.victim)], landed.struck, blow, own);
+  answer.damage = damage_of(blow, answer.outcome);
+  return answer;
+}
+
+ImpactAnswer ImpactMemo::kept_in_flight_answer(const LandedBlow& landed, const Blow& blow) {
+  const std::uint64_t motion = landed.struck.table->motion;
+  const Tick age = landed.struck.age;
+  Packer moment;
+  moment.add(age, 16).add(static_cast<int>(blow.part), 5).add(blow.blocked ? 1 : 0, 1);
+  Hasher exactly;
+  for (const Vec3& v : {blow.point, blow.impulse}) exactly.add(v.x).add(v.y).add(v.z);
+  const KeptOwnMotion own = [&](bool mirrored, const std::function<OwnMotion()>& run) {
+    Packer side;
+    side.add(age, 16).add(mirrored ? 1 : 0, 1);
+    return remembered(in_flight_own_motions_, {side.a(), 0, motion}, run);
+  };
+  return remembered(in_flight_answers_, {moment.a(), exactly.digest(), motion},
+                    [&] { return in_flight_answer(landed, blow, own); });
 }
 
 ImpactAnswer ImpactMemo::carried(const ImpactAnswer& found, const LandedBlow& landed,
                                  const Blow& blow) const {
-  ImpactAnswer answer = turned(found, root_yaw(landed));
+  ImpactAnswer answer = turned(found, landed.struck.root().yaw);
   answer.impulse = glm::length(blow.impulse);
   answer.damage = damage_of(blow, answer.outcome);
   return answer;
@@ -241,6 +261,11 @@ Value ImpactMemo::kept(ImpactShelf<Value> ImpactStore::*shelf, const Key& key,
 template <class Value, class Compute>
 const Value& ImpactMemo::looked_up(Shards<Value>& shards, ImpactShelf<Value> ImpactStore::*shelf,
                                    const Key& key, const Compute& compute) {
+  return remembered(shards, key, [&] { return kept(shelf, key, compute); });
+}
+
+template <class Value, class Compute>
+const Value& ImpactMemo::remembered(Shards<Value>& shards, const Key& key, const Compute& compute) {
   Shard<Value>& shard = shards[(ImpactKeyHash()(key) >> 8) % shards.size()];
   {
     const std::lock_guard lock(shard.mutex);
@@ -249,13 +274,16 @@ const Value& ImpactMemo::looked_up(Shards<Value>& shards, ImpactShelf<Value> Imp
     if (found != shard.entries.end()) return found->second;
   }
   // Outside the lock: it takes long, and twice gives the same.
-  const Value value = kept(shelf, key, compute);
+  const Value value = compute();
   const std::lock_guard lock(shard.mutex);
-  return shard.entries.try_emplace(key, value).first->second;
+  const auto [place, added] = shard.entries.try_emplace(key, value);
+  shard.made += added ? 1u : 0u;
+  return place->second;
 }
 
 ImpactAnswer ImpactMemo::answer(const LandedBlow& landed) {
   const Blow blow = kept(landed);
+  if (landed.struck.table->in_flight()) return kept_in_flight_answer(landed, blow);
   const ImpulseSteps steps = steps_of(landed, blow.impulse);
   const ImpactAnswer& found = looked_up(answers_, &ImpactStore::answers, key_of(steps),
                                         [&] { return answer_of(steps, own_motion(steps)); });
@@ -264,6 +292,7 @@ ImpactAnswer ImpactMemo::answer(const LandedBlow& landed) {
 
 ImpactAnswer ImpactMemo::recomputed(const LandedBlow& landed) const {
   const Blow blow = exact(landed);
+  if (landed.struck.table->in_flight()) return in_flight_answer(landed, blow, {});
   return carried(answer_of(steps_of(landed, blow.impulse), {}), landed, blow);
 }
 
@@ -289,9 +318,8 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
   LandedBlow landed;
   landed.attacker = attacker;
   landed.victim = victim;
-  landed.attack = attack;
-  landed.struck_action = standing;
-  landed.attack_age = fastest;
+  landed.attack = {&action, fastest};
+  landed.struck = {&bodies_[static_cast<std::size_t>(victim)]->at(standing), 0};
   landed.kind = blow.strike.kind;
   landed.contact.striker = blow.main;
   landed.contact.struck = blow.strike.zone == TargetZone::head   ? Part::head
@@ -300,10 +328,8 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
   landed.contact.normal = kForward;
   landed.contact.velocity = -kForward * speed;
   landed.attacker_yaw = kPi;
-  landed.contact.point = point_of(
-      part_capsule(*bodies_[static_cast<std::size_t>(victim)], standing, 0, landed.contact.struck),
-      -kForward, {0, 0});
-  const Capsule& striker = action.capsules_at(fastest)[index(blow.main)];
+  landed.contact.point = point_of(landed.struck.part(landed.contact.struck), -kForward, {0, 0});
+  const Capsule striker = landed.attack.part(blow.main);
   landed.striking = (striker.a + striker.b) * 0.5f;
   const Blow clean = kept(landed);
   const ImpulseSteps steps = steps_of(landed, clean.impulse);
@@ -317,10 +343,12 @@ std::int32_t ImpactMemo::clean_damage(int attacker, ActionId attack, std::size_t
 
 ImpactMemo::Counts ImpactMemo::counts() const {
   Counts counts;
-  for (const Shard<ImpactAnswer>& shard : answers_) {
-    const std::lock_guard lock(shard.mutex);
-    counts.lookups += shard.lookups;
-    counts.entries += shard.entries.size();
+  for (const Shards<ImpactAnswer>* shards : {&answers_, &in_flight_answers_}) {
+    for (const Shard<ImpactAnswer>& shard : *shards) {
+      const std::lock_guard lock(shard.mutex);
+      counts.lookups += shard.lookups;
+      counts.entries += shard.made;
+    }
   }
   return counts;
 }

@@ -25,11 +25,20 @@ struct MemoSteps {
   float impulse = 3.0f;  // N s
 };
 
+// What a body is doing at a tick.
+struct BodyMoment {
+  const ActionTable* table = nullptr;  // of the memo's tables, or of a motion in flight
+  Tick age = 0;                        // within the table
+
+  const Pose& pose() const { return table->pose_at(age); }
+  Placement root() const { return table->root_at(age); }
+  Capsule part(Part which) const { return table->capsules_at(age)[index(which)]; }
+};
+
 // A landed blow as the tree meets it. Bodies are indices into the memo's tables.
 struct LandedBlow {
   int attacker = 0, victim = 0;
-  ActionId attack, struck_action;  // of the tables: a part of a response has an id of its own
-  Tick attack_age = 0, struck_age = 0;
+  BodyMoment attack, struck;
   StrikeKind kind = StrikeKind::straight;
   Contact contact;         // in the victim's action space
   float attacker_yaw = 0;  // of the attacker's action space, seen from the victim's, rad
@@ -42,6 +51,10 @@ class ImpactMemo {
   explicit ImpactMemo(std::vector<const MotionTables*> bodies, const MemoSteps& steps = {},
                       std::shared_ptr<ImpactStore> store = nullptr);
 
+  // The number of another motion in flight (ActionTable::motion). What is known of blows on earlier
+  // ones is dropped.
+  std::uint64_t begin_motion();
+
   // The same answer whether it was stored or not, on any number of threads.
   ImpactAnswer answer(const LandedBlow& blow);
   // The same without the memo.
@@ -51,7 +64,8 @@ class ImpactMemo {
   std::int32_t clean_damage(int attacker, ActionId attack, std::size_t strike, int victim);
 
   struct Counts {
-    // Neither depends on the number of threads, nor on what a store holds.
+    // Neither depends on the number of threads, nor on what a store holds. `entries`: answers made,
+    // to quantised blows and to those on motions in flight.
     std::uint64_t lookups = 0, entries = 0;
   };
   Counts counts() const;
@@ -62,7 +76,7 @@ class ImpactMemo {
   struct Shard {
     mutable std::mutex mutex;
     std::unordered_map<Key, Value, ImpactKeyHash> entries;
-    std::uint64_t lookups = 0;
+    std::uint64_t lookups = 0, made = 0;
   };
   template <class Value>
   using Shards = std::array<Shard<Value>, 16>;
@@ -92,14 +106,22 @@ class ImpactMemo {
   Blow exact(const LandedBlow& blow) const;  // without the memo
   Blow kept(const LandedBlow& blow);
   ImpulseSteps steps_of(const LandedBlow& blow, Vec3 impulse) const;
-  float root_yaw(const LandedBlow& blow) const;  // of the struck body, in its action space
   // Seen from the struck body's root. `own`: what the struck body does without the blow, kept.
   ImpactAnswer answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const;
+  // The impulse step of a blow, without its damage; in the struck body's action space.
+  static ImpactAnswer stepped(const MotionTables& victim, const BodyMoment& struck,
+                              const Blow& blow, const KeptOwnMotion& own);
+  // The answer to a blow on a motion in flight: nothing is quantised.
+  ImpactAnswer in_flight_answer(const LandedBlow& landed, const Blow& blow,
+                                const KeptOwnMotion& own) const;
+  ImpactAnswer kept_in_flight_answer(const LandedBlow& landed, const Blow& blow);
   KeptOwnMotion own_motion(const ImpulseSteps& steps);
   static ImpactAnswer turned(ImpactAnswer answer, float yaw);
   // The answer to the exact blow, in the victim's action space, out of that to the steps.
   ImpactAnswer carried(const ImpactAnswer& found, const LandedBlow& landed, const Blow& blow) const;
   Key key_of(const ImpulseSteps& steps) const;
+  template <class Value, class Compute>
+  static const Value& remembered(Shards<Value>& shards, const Key& key, const Compute& compute);
   // Out of the store, else computed; and out of the memo before that.
   template <class Value, class Compute>
   Value kept(ImpactShelf<Value> ImpactStore::*shelf, const Key& key, const Compute& compute);
@@ -115,6 +137,9 @@ class ImpactMemo {
   Shards<PartMobility> mobilities_;
   Shards<ImpactAnswer> answers_;
   Shards<OwnMotion> own_motions_;  // by pose class and side
+  Shards<ImpactAnswer> in_flight_answers_;
+  Shards<OwnMotion> in_flight_own_motions_;  // by motion, tick and side
+  std::uint64_t motions_ = 0;
 };
 
 }  // namespace ringcraft

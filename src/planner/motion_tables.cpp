@@ -100,6 +100,29 @@ StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
   return result;
 }
 
+// Appends a frame, or replaces that of `age`; the travel is that from the frame before.
+void set_frame(ActionTable& table, std::size_t age, const BodyModel& body, const Pose& pose) {
+  if (age >= table.capsules.size()) {
+    table.capsules.resize(age + 1);
+    table.travel.resize(age + 1);
+    table.bound.resize(age + 1);
+    table.box.resize(age + 1);
+    table.spheres.resize(age + 1);
+    table.groups.resize(age + 1);
+  }
+  const BodyCapsules own = capsules(body, world_pose(body.skeleton, pose));
+  table.capsules[age] = own;
+  table.travel[age] = travels_of(table.capsules[age > 0 ? age - 1 : 0], own);
+  table.bound[age] = bound_of(own);
+  table.box[age] = box_of(own);
+  table.spheres[age] = spheres_of(own);
+  table.groups[age] = groups_of(table.spheres[age]);
+  for (const Capsule& c : own) {
+    const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
+    table.extent = std::max(table.extent, far);
+  }
+}
+
 // `poses` of the body, a frame each.
 ActionTable action_table(const Action& action, const BodyModel& body, std::vector<Pose> poses) {
   ActionTable table;
@@ -107,23 +130,24 @@ ActionTable action_table(const Action& action, const BodyModel& body, std::vecto
   table.length = action.length();
   table.pose = std::move(poses);
   for (std::size_t i = 0; i < action.clip.frames.size(); ++i) {
-    const Pose& pose = table.pose[i];
     table.root.push_back(scaled(action.clip.root[i], body.scale));
-    table.capsules.push_back(capsules(body, world_pose(body.skeleton, pose)));
-    const BodyCapsules& before = table.capsules[i > 0 ? i - 1 : 0];
-    table.travel.push_back(travels_of(before, table.capsules.back()));
-    table.bound.push_back(bound_of(table.capsules.back()));
-    table.box.push_back(box_of(table.capsules.back()));
-    table.spheres.push_back(spheres_of(table.capsules.back()));
-    table.groups.push_back(groups_of(table.spheres.back()));
-    for (const Capsule& c : table.capsules.back()) {
-      const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
-      table.extent = std::max(table.extent, far);
-    }
+    set_frame(table, i, body, table.pose[i]);
   }
   table.end = Frame(table.root.back());
   for (const Strike& strike : action.strikes) table.strikes.push_back(strike_table(strike, table));
   return table;
+}
+
+// The rows of a clip's frames, one for each of `ages`.
+template <class Row>
+std::vector<Row> paced(const std::vector<Row>& rows, const std::vector<Tick>& ages) {
+  std::vector<Row> result;
+  result.reserve(ages.size());
+  for (const Tick age : ages) {
+    const auto last = static_cast<Tick>(rows.size()) - 1;
+    result.push_back(rows[static_cast<std::size_t>(std::clamp(age, 0, last))]);
+  }
+  return result;
 }
 
 // The strike's parts at `tick`, seen from the target's action space.
@@ -226,6 +250,7 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     : library_(library), body_(body) {
   const std::size_t whole = library.actions().size();
   actions_.reserve(whole + library.responses().size() * kParts.size());
+  followers_.resize(whole);
   parts_.resize(whole);
   for (const Action& action : library.actions()) {
     std::vector<Pose> poses;
@@ -241,12 +266,14 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
           choose_get_up(library, body_.skeleton, table.pose.back(), table.action->stance);
     }
     for (const ActionId to : library.launchable()) {
-      if (auto next = next_action(ActionId(i), to)) table.next.push_back(std::move(*next));
+      if (auto next = next_action(ActionId(i), to)) followers_[i].next.push_back(std::move(*next));
     }
     for (const Edge& edge : library.machine().edges(ActionId(i))) {
       if (!library.action(edge.to).connects) continue;
-      table.over.push_back(*next_action(ActionId(i), edge.to));
+      followers_[i].over.push_back(*next_action(ActionId(i), edge.to));
     }
+    table.next = followers_[i].next;
+    table.over = followers_[i].over;
   }
   for (const ActionId response : library.responses()) {
     const ResponseKind kind = library.action(response).response->kind;
@@ -284,6 +311,40 @@ const ActionTable& MotionTables::at(ActionId action, float share) const {
   const auto step = static_cast<std::size_t>(
       std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(kParts.size())));
   return first == 0 || step >= kParts.size() ? actions_[action.at()] : actions_[first + step];
+}
+
+ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
+  const InFlight flight(*this, motion.launch);
+  ActionTable table = *flight.table;
+  table.clip_ages = motion.clip_ages;
+  table.length = static_cast<Tick>(table.clip_ages.size()) - 1;
+  table.capsules = paced(table.capsules, table.clip_ages);
+  table.spheres = paced(table.spheres, table.clip_ages);
+  table.groups = paced(table.groups, table.clip_ages);
+  table.travel = paced(table.travel, table.clip_ages);
+  table.box = paced(table.box, table.clip_ages);
+  table.bound = paced(table.bound, table.clip_ages);
+  table.root = paced(table.root, table.clip_ages);
+  table.pose = paced(table.pose, table.clip_ages);
+  for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+    const Tick tick = motion.from + static_cast<Tick>(i), age = flight.age(tick);
+    if (age < 0 || age > table.length) continue;
+    const auto at = static_cast<std::size_t>(age);
+    table.pose[at] = placed(motion.poses[i], inverse(flight.frame_at(tick).placement()));
+    set_frame(table, at, body_, table.pose[at]);
+  }
+  // A strike begins and ends where the clip does.
+  const auto reached = [&](Tick age) {
+    return static_cast<Tick>(std::lower_bound(table.clip_ages.begin(), table.clip_ages.end(), age) -
+                             table.clip_ages.begin());
+  };
+  for (StrikeTable& one : table.strikes) {
+    Strike strike = one.strike;
+    strike.active_begin = reached(strike.active_begin);
+    strike.active_end = reached(strike.active_end);
+    one = strike_table(strike, table);
+  }
+  return table;
 }
 
 // `to` after `from`, by the direct edge or else by the shortest path.

@@ -2,6 +2,8 @@
 // Motion tables: what the tree asks of an action, worked out once per library and body, so that a
 // contact or penetration test costs microseconds and no pose is built inside a search.
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fight/state.h"
@@ -75,7 +77,9 @@ struct ActionTable {
   ActionId id;  // of MotionTables::at; beyond the library's actions where it is a part of one
   const Action* action = nullptr;
   Tick length = 0;
-  std::vector<BodyCapsules> capsules;                   // action space, one a tick
+  std::uint64_t motion = 0;            // its number where it is of a motion in flight, else 0
+  std::vector<Tick> clip_ages;         // of one: the clip's age, by ticks since the launch
+  std::vector<BodyCapsules> capsules;  // action space, one a tick
   std::vector<std::array<Sphere, kPartCount>> spheres;  // around the capsules
   std::vector<std::array<Sphere, kGroups>> groups;      // around the spheres of each group
   std::vector<std::array<float, kPartCount>> travel;    // m: how far each goes in the tick before
@@ -84,15 +88,17 @@ struct ActionTable {
   std::vector<Sphere> bound;                            // of the capsules
   std::vector<Pose> pose;                               // scaled to the body
   std::vector<StrikeTable> strikes;
-  float extent = 0;              // largest distance of the body from the origin on the ground, m
-  Frame end;                     // root[length]
-  float way = 0;                 // of an absorbing response: way_of_clip (physics/partial.h), m
-  std::vector<float> way_left;   // of a response that stays up, one a tick, m
-  ActionId get_up;               // of a fall: what follows it; invalid for anything else
-  std::vector<NextAction> next;  // what a fighter may choose after it, by index
-  std::vector<NextAction> over;  // what follows it only on the way to something else
+  float extent = 0;             // largest distance of the body from the origin on the ground, m
+  Frame end;                    // root[length]
+  float way = 0;                // of an absorbing response: way_of_clip (physics/partial.h), m
+  std::vector<float> way_left;  // of a response that stays up, one a tick, m
+  ActionId get_up;              // of a fall: what follows it; invalid for anything else
+  std::span<const NextAction> next;  // what a fighter may choose after it, by index
+  std::span<const NextAction> over;  // what follows it only on the way to something else
 
   Tick clamped(Tick age) const { return age < 0 ? 0 : age > length ? length : age; }
+  bool in_flight() const { return motion != 0; }
+  Tick clip_age(Tick age) const { return clip_ages.empty() ? clamped(age) : clip_ages[at(age)]; }
   const BodyCapsules& capsules_at(Tick age) const { return capsules[at(age)]; }
   const Placement& root_at(Tick age) const { return root[at(age)]; }
   const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
@@ -105,6 +111,16 @@ struct ActionTable {
 
  private:
   std::size_t at(Tick age) const { return static_cast<std::size_t>(clamped(age)); }
+};
+
+// What a launch in flight shows from now on: its clip with the blend of its seam, at its pace, or a
+// simulated response. The tree plays it as it is; of what is still to be launched it has the clip.
+struct MotionInFlight {
+  Launch launch;
+  Tick from = 0;            // of the first pose
+  std::vector<Pose> poses;  // world, one a tick
+  std::vector<Tick>
+      clip_ages;  // of the launch's clip, from its first tick to that of the last pose
 };
 
 class MotionTables {
@@ -121,6 +137,10 @@ class MotionTables {
   // Of the library's actions and of parts of them.
   std::size_t count() const { return actions_.size(); }
 
+  // The table of a launch as it is shown, by ticks since the launch in place of the clip's age. Of
+  // this body; before the first pose and behind the last it is the clip's.
+  ActionTable in_flight(const MotionInFlight& motion) const;
+
  private:
   std::optional<NextAction> next_action(ActionId from, ActionId to) const;
 
@@ -129,7 +149,11 @@ class MotionTables {
   void add_parts(ActionId action);
 
   std::vector<ActionTable> actions_;
-  std::vector<std::size_t> parts_;  // by action: the first of its parts, 0 where it has none
+  struct Followers {
+    std::vector<NextAction> next, over;
+  };
+  std::vector<Followers> followers_;  // by action
+  std::vector<std::size_t> parts_;    // by action: the first of its parts, 0 where it has none
 };
 
 // A launch resolved against its tables: where its action space and its root lie at a tick.

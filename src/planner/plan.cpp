@@ -47,6 +47,11 @@ struct Planner::Inside {
   std::vector<Condition> condition;       // by contender
   std::vector<Habits> habits;             // by contender
   std::vector<ActionId> feigned;          // by action: the attack that a feint begins like
+  struct Shown {
+    Launch launch;
+    ActionTable table;
+  };
+  std::vector<std::optional<Shown>> shown;  // by contender
   SearchCost* cost = nullptr;
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
@@ -54,6 +59,7 @@ struct Planner::Inside {
   DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
                   Tick last_contact) const;
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
+  const ActionTable* in_flight(FighterId fighter, const Launch& launch) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
   FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
@@ -107,6 +113,7 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
   use.assign(contenders.size(), std::vector<double>(library.actions().size(), 0.0));
   condition.resize(contenders.size());
   habits.resize(contenders.size());
+  shown.resize(contenders.size());
   for (const Action& action : library.actions()) feigned.push_back(attack_of(library, action));
   work.resize(contenders.size());
   for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -121,6 +128,16 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
 double Planner::Inside::work_of(FighterId fighter, ActionId action) const {
   const std::vector<double>& own = work[fighter.at()];
   return own.empty() ? 0 : own[action.at()];
+}
+
+// The table of the launch as it is shown, where it is known.
+const ActionTable* Planner::Inside::in_flight(FighterId fighter, const Launch& launch) const {
+  const std::optional<Shown>& one = shown[fighter.at()];
+  if (!one || one->launch.action != launch.action || one->launch.start != launch.start ||
+      one->launch.share != launch.share) {
+    return nullptr;
+  }
+  return &one->table;
 }
 
 FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighter) const {
@@ -188,6 +205,9 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   DuelSetup setup;
   setup.side[0] = side_setup(fighter, opponent, quiet);
   setup.side[1] = side_setup(opponent, fighter, quiet);
+  for (SideSetup& side : setup.side) {
+    side.in_flight = in_flight(side.id, state.fighters[side.id.at()].launch);
+  }
   setup.learning = setup.side[0].style->learning;
   if (setup.learning > 0) setup.habits = &habits[opponent.at()];
   setup.factors = leaf_factors(setup.side[0].weights);
@@ -202,6 +222,7 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
     one.body = body_of[i];
     one.id = FighterId(i);
     one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
+    if (const ActionTable* table = in_flight(one.id, one.flight.launch)) one.flight.table = table;
     setup.others.push_back(one);
   }
   return setup;
@@ -346,6 +367,13 @@ void Planner::note_habit(const FightState& state, FighterId fighter, ActionId ac
   const ActionId feigned = in.feigned[action.at()];
   const bool attacks = in.library.action(action).attacks();
   if (attacks || feigned.valid()) habits.note_begun(feigned.valid() ? feigned : action, !attacks);
+}
+
+void Planner::show(FighterId fighter, const MotionInFlight& motion) {
+  const auto body = static_cast<std::size_t>(inside_->body_of[fighter.at()]);
+  ActionTable table = inside_->tables[body]->in_flight(motion);
+  table.motion = inside_->memo->begin_motion();
+  inside_->shown[fighter.at()] = {motion.launch, std::move(table)};
 }
 
 void Planner::set_condition(FighterId fighter, const Condition& condition) {

@@ -13,7 +13,8 @@
 
 namespace ringcraft {
 
-class MotionTables;   // per library and body: capsules, roots and strike sweeps by action and tick
+class MotionTables;  // per library and body: capsules, roots and strike sweeps by action and tick
+struct MotionInFlight;
 struct DecisionTree;  // planner/tree.h
 class ImpactMemo;     // quantised impulse steps, shared by a fight; a memo never changes a result
 struct ImpactStore;   // impulse steps that are known already, shared by planners
@@ -105,6 +106,10 @@ class Planner {
   // Learning: the same launch with the situation in which it is made, while the fighter's last
   // action is still in the state.
   void note_habit(const FightState& state, FighterId fighter, ActionId action);
+
+  // What the fighter's launch looks like from now on: blends, pace, a simulated response. A planner
+  // that is not told plays what is in flight as its clip is.
+  void show(FighterId fighter, const MotionInFlight& motion);
 
   // Fatigue and injuries as they are from now on.
   void set_condition(FighterId fighter, const Condition& condition);

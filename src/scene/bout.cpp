@@ -159,12 +159,19 @@ void Bout::tire(FighterId id) {
   standing_[id.at()].condition.rest(static_cast<double>(kTickSeconds));
 }
 
+// Tells the planner what the fighter's launch looks like from now on.
+void Bout::show_planner(FighterId id) {
+  if (id.valid()) planner_->show(id, stage_.in_flight(id, state_.now));
+}
+
 Plan Bout::decide(FighterId id) {
   fighter(id).opponent = nearest_opponent(id);
   for (std::size_t i = 0; i < standing_.size(); ++i) {
     planner_->set_condition(FighterId(i), standing_[i].condition);
   }
   const auto begin = Clock::now();
+  show_planner(id);
+  show_planner(fighter(id).opponent);
   Plan plan = planner_->plan(state_, id, last_contact_);
   record_.decision_ms.push_back(microseconds_since(begin) / 1000);
   return plan;
@@ -448,24 +455,31 @@ bool Bout::strikes_now() const {
 // What the tree says of the strikes in flight: when somebody has begun something new, and anew
 // before every tick in which a blow may land, since where the bodies are has changed by then.
 void Bout::foresee() {
-  launched_ = false;
+  for (std::size_t i = 0; i < standing_.size(); ++i) show_planner(FighterId(i));
   for (std::size_t i = 0; i < standing_.size(); ++i) {
     standing_[i].foreseen = planner_->foresee(state_, FighterId(i));
+    if (launched_) standing_[i].foreseen_at_launch = standing_[i].foreseen;
   }
+  launched_ = false;
 }
 
 // Did the tree foresee this contact, and the same kind of response?
 void Bout::note_foreseen(Event& event) {
   if (event.fall) return;  // the tree knows strikes only
-  for (const Event& foreseen : standing_[event.who.at()].foreseen) {
-    if (foreseen.type == EventType::miss || foreseen.whom != event.whom ||
-        foreseen.strike != event.strike || std::abs(foreseen.tick - event.tick) > kForeseenTicks) {
-      continue;
-    }
+  const auto told = [&](const std::vector<Event>& foreseen) {
+    const auto found = std::find_if(foreseen.begin(), foreseen.end(), [&](const Event& one) {
+      return one.type != EventType::miss && one.whom == event.whom && one.strike == event.strike &&
+             std::abs(one.tick - event.tick) <= kForeseenTicks;
+    });
+    return found != foreseen.end() ? &*found : nullptr;
+  };
+  const Standing& standing = standing_[event.who.at()];
+  if (const Event* one = told(standing.foreseen)) {
     ++record_.counts.foreseen;
-    event.foreseen = foreseen.response == event.response;
-    return;
+    event.foreseen = one->response == event.response;
   }
+  const Event* early = told(standing.foreseen_at_launch);
+  if (early != nullptr && early->response == event.response) ++record_.counts.agreed_at_launch;
 }
 
 // Bodies that press into each other give way on the ground, each by half, or the one that can by

@@ -41,8 +41,9 @@ class Bout {
     std::size_t strike = 0;
     Contact contact;
   };
-  struct Standing {               // what the bout knows of a fighter beyond the state
-    std::vector<Event> foreseen;  // what its strikes in flight will do, by the tree
+  struct Standing {                         // what the bout knows of a fighter beyond the state
+    std::vector<Event> foreseen;            // what its strikes in flight will do, by the tree
+    std::vector<Event> foreseen_at_launch;  // the same as of when somebody last began something
     bool out = false;
     std::uint32_t fell_upon = 0;  // bit i: this fall has hit fighter i
     Condition condition;          // fatigue and injuries
@@ -56,6 +57,7 @@ class Bout {
   void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
              const Pace& pace = {});
   Pace executed(FighterId id, Launch& launch);
+  void show_planner(FighterId id);
   void tire(FighterId id);
   void note_strikes(FighterId id);
   std::vector<Touch> touches() const;

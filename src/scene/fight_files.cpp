@@ -38,6 +38,7 @@ RunFacts facts_of(const SceneFile& scene, const FightRecord& record) {
   facts.memo_misses = record.counts.memo_misses;
   facts.impulse_steps = record.counts.impulse_steps;
   facts.foreseen = record.counts.foreseen;
+  facts.agreed_at_launch = record.counts.agreed_at_launch;
   facts.interrupted = record.interrupted;
   return facts;
 }

@@ -19,7 +19,8 @@ constexpr float kArmsReach =
 constexpr float kLimitTolerance = radians(2);
 constexpr float kSlowsFrom = radians(-12);  // of a joint's range: there it slows, unless its clip
 constexpr float kUpright = .6f;             // of the leg's length: hips lower than that lie
-constexpr float kLegSlowsBy = kTickSeconds / .1f;       // a tick: of a leg that begins to swing
+constexpr float kLegSlowsBy = kTickSeconds / .1f;  // a tick: of a leg that begins to swing
+constexpr Tick kShownAhead = 2 * kTicksPerSecond;  // what a planner is told of a launch in flight
 constexpr float kSlowsBy = radians(60) * kTickSeconds;  // rad a tick: at which that sets in
 
 // The pose with its joints inside their ranges, on the side on which they were a tick `earlier`,
@@ -47,7 +48,7 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
   for (BodyModel& body : bodies) {
     const MotionLibrary& own = library.of(FighterId(actors_.size()));
     Playback playback(body.skeleton);
-    actors_.push_back(Actor{&own, std::move(body), std::move(playback)});
+    actors_.push_back(Actor{&own, std::move(body), Motion{std::move(playback)}});
   }
 }
 
@@ -97,44 +98,49 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
   actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
-  actor.gives = {};
-  actor.landed = {};
+  actor.motion.gives = {};
+  actor.motion.landed = {};
   if (actor.simulated.empty()) {
-    actor.playback.stitch(clip_pose(actor, launch.start + 1), clip_pose(actor, launch.start + 2));
+    actor.motion.playback.stitch(clip_pose(actor, launch.start + 1),
+                                 clip_pose(actor, launch.start + 2));
   }
 }
 
 void Stage::drive_back(FighterId fighter, Part part, Vec3 velocity) {
-  actors_[fighter.at()].gives[static_cast<std::size_t>(guarding_side(part))].drive(velocity);
+  actors_[fighter.at()].motion.gives[static_cast<std::size_t>(guarding_side(part))].drive(velocity);
 }
 
 // The pose of the next tick with its arms where blows have driven them.
-Pose Stage::given_way(const Actor& actor, std::array<ArmGive, 2>& gives, const Pose& pose) {
+Pose Stage::given_way(const BodyModel& body, Motion& motion) {
+  const Pose& pose = motion.playback.shown();
   LimbOffsets offsets{};
   for (const Side side : {Side::left, Side::right}) {
     const auto i = static_cast<std::size_t>(side);
-    gives[i].step();
-    if (gives[i].at_rest()) continue;
-    offsets[i] = short_of_the_body(actor.body, pose, side, gives[i].offset());
+    ArmGive& give = motion.gives[i];
+    give.step();
+    if (give.at_rest()) continue;
+    offsets[i] = short_of_the_body(body, pose, side, give.offset());
   }
-  return with_offsets(actor.body, pose, offsets);
+  return with_offsets(body, pose, offsets);
 }
 
 void Stage::land(FighterId fighter, const Contact& contact) {
   Actor& actor = actors_[fighter.at()];
   const auto limb = limb_of(contact.striker);
   if (!limb) return;
-  actor.landed[*limb] = LandedLimb(actor.body, kArmsAndLegs[*limb], actor.playback.shown_before(),
-                                   actor.playback.shown(), contact);
-  actor.unhindered = stopped(actor, actor.landed, actor.unhindered);
+  Motion& motion = actor.motion;
+  motion.landed[*limb] = LandedLimb(actor.body, kArmsAndLegs[*limb], motion.playback.shown_before(),
+                                    motion.playback.shown(), contact);
+  motion.unhindered = stopped(actor.body, motion, motion.unhindered);
 }
 
 // The pose with the limbs that have landed no farther than they were then. A leg that carries is
 // free.
-Pose Stage::stopped(const Actor& actor, std::array<LandedLimb, 4>& landed, const Pose& pose) {
+Pose Stage::stopped(const BodyModel& body, Motion& motion, const Pose& pose) {
   LimbOffsets offsets{};
-  const WorldPose world = world_pose(actor.body.skeleton, pose);
-  const FootContacts held = actor.playback.held();
+  std::array<LandedLimb, 4>& landed = motion.landed;
+  const WorldPose world = world_pose(body.skeleton, pose);
+  const FootContacts held = motion.playback.held();
   if (held.left) landed[2] = {};
   if (held.right) landed[3] = {};
   for (std::size_t i = 0; i < landed.size(); ++i) {
@@ -142,7 +148,7 @@ Pose Stage::stopped(const Actor& actor, std::array<LandedLimb, 4>& landed, const
     offsets[i] = landed[i].held_back(end);
     landed[i].let_go_behind(end);
   }
-  return with_offsets(actor.body, pose, offsets);
+  return with_offsets(body, pose, offsets);
 }
 
 void Stage::shift(FighterId fighter, Vec3 offset) {
@@ -153,28 +159,31 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
   actor.track.segments.back().launch.placement = actor.launch.placement;
 }
 
+// The next tick's pose as if nothing stood in its way; true where its clip follows a simulation.
+bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
+  const Clip& clip = library_.action(actor.launch.action).clip;
+  auto at = static_cast<std::size_t>(tick - actor.simulated_from);
+  // Who fell lies where the ragdoll came to rest, until a get-up begins.
+  const bool lies = library_.action(actor.launch.action).ends_lying != Lying::none;
+  if (lies && !actor.simulated.empty()) at = std::min(at, actor.simulated.size() - 1);
+  const bool simulated = at < actor.simulated.size();
+  const bool seam = motion.simulated && !simulated && motion.playback.started();
+  if (simulated) {
+    motion.playback.next_simulated(actor.simulated[at]);
+  } else {
+    const Pose pose = clip_pose(actor, tick);
+    if (seam) motion.playback.stitch(pose, clip_pose(actor, tick + 1));
+    motion.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
+  }
+  motion.simulated = simulated;
+  for (LandedLimb& limb : motion.landed) limb.step();
+  motion.unhindered = stopped(actor.body, motion, given_way(actor.body, motion));
+  return seam;
+}
+
 void Stage::show(Tick tick) {
   for (Actor& actor : actors_) {
-    const Clip& clip = library_.action(actor.launch.action).clip;
-    auto at = static_cast<std::size_t>(tick - actor.simulated_from);
-    // Who fell lies where the ragdoll came to rest, until a get-up begins.
-    const bool lies = library_.action(actor.launch.action).ends_lying != Lying::none;
-    if (lies && !actor.simulated.empty()) at = std::min(at, actor.simulated.size() - 1);
-    if (at < actor.simulated.size()) {
-      actor.playback.next_simulated(actor.simulated[at]);
-      actor.was_simulated = true;
-    } else {
-      const Pose pose = clip_pose(actor, tick);
-      if (actor.was_simulated && actor.playback.started()) {
-        actor.kept_out = {};
-        actor.playback.stitch(pose, clip_pose(actor, tick + 1));
-      }
-      actor.was_simulated = false;
-      actor.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
-    }
-    for (LandedLimb& limb : actor.landed) limb.step();
-    actor.unhindered =
-        stopped(actor, actor.landed, given_way(actor, actor.gives, actor.playback.shown()));
+    if (go_on(actor, tick, actor.motion)) actor.kept_out = {};
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     amend(actor, actor.kept_out);
@@ -186,10 +195,10 @@ void Stage::show(Tick tick) {
 // as far as it was shown there. Legs bear the body: theirs do not slow while they stand.
 void Stage::free_joints(Actor& actor, Tick tick) const {
   const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
-  if (actor.was_simulated) actor.free = limit_excesses(actor.playback.shown());
-  const bool seam = actor.was_simulated || actor.seam;
+  if (actor.motion.simulated) actor.free = limit_excesses(actor.motion.playback.shown());
+  const bool seam = actor.motion.simulated || actor.seam;
   actor.seam = false;
-  const FootContacts held = actor.playback.held();
+  const FootContacts held = actor.motion.playback.held();
   for (const Side side : {Side::left, Side::right}) {
     float& share = actor.swings[static_cast<std::size_t>(side)];
     share = std::clamp(share + (held.of(side) ? -kLegSlowsBy : kLegSlowsBy), 0.0f, 1.0f);
@@ -209,55 +218,61 @@ void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
   actor.kept_out = offsets;
   LimitExcesses simulated;  // mended already
   simulated.fill(kLimitTolerance);
-  actor.playback.amend(limited(actor.body, with_offsets(actor.body, actor.unhindered, offsets),
-                               actor.playback.shown_before(),
-                               actor.was_simulated ? simulated : actor.free));
-  actor.swept.after = capsules(actor.body, world_pose(actor.body.skeleton, actor.playback.shown()));
+  actor.motion.playback.amend(limited(
+      actor.body, with_offsets(actor.body, actor.motion.unhindered, offsets),
+      actor.motion.playback.shown_before(), actor.motion.simulated ? simulated : actor.free));
+  actor.swept.after =
+      capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.playback.shown()));
 }
 
 void Stage::keep_out_and_record() {
   for (Actor& actor : actors_) {
     std::vector<BodyCapsules> near;
     for (const Actor& other : actors_) {
-      const float apart = glm::distance(actor.unhindered.hips, other.playback.shown().hips);
+      const float apart =
+          glm::distance(actor.motion.unhindered.hips, other.motion.playback.shown().hips);
       if (&other != &actor && apart < kArmsReach * actor.body.scale)
         near.push_back(other.swept.after);
     }
-    amend(actor,
-          kept_out(actor.body, actor.unhindered, actor.playback.held(), near, actor.kept_out));
-    actor.track.frames.push_back(actor.playback.shown());
-    actor.track.contacts.push_back(actor.playback.held());
+    amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
+                          actor.kept_out));
+    actor.track.frames.push_back(actor.motion.playback.shown());
+    actor.track.contacts.push_back(actor.motion.playback.held());
   }
 }
 
 const Pose& Stage::shown_before(FighterId fighter) const {
-  return actors_[fighter.at()].playback.shown_before();
+  return actors_[fighter.at()].motion.playback.shown_before();
 }
 
 bool Stage::simulated(FighterId fighter) const {
-  return actors_[fighter.at()].was_simulated;
+  return actors_[fighter.at()].motion.simulated;
 }
 
 std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
   const Actor& actor = actors_[fighter.at()];
-  const Clip& clip = library_.action(actor.launch.action).clip;
-  Playback ahead = actor.playback;
-  std::array<ArmGive, 2> gives = actor.gives;
-  std::array<LandedLimb, 4> landed = actor.landed;
-  std::vector<Pose> poses{actor.playback.shown()};
+  Motion ahead = actor.motion;
+  LimbOffsets offsets = actor.kept_out;
+  std::vector<Pose> poses{ahead.playback.shown()};
   for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
-    const auto at = static_cast<std::size_t>(next - actor.simulated_from);
-    if (at < actor.simulated.size()) {
-      poses.push_back(actor.simulated[at]);
-    } else {
-      const Pose& pose =
-          ahead.next(clip_pose(actor, next), clip.contacts_at(clip_age(actor, next)));
-      for (LandedLimb& limb : landed) limb.step();
-      poses.push_back(with_offsets(
-          actor.body, stopped(actor, landed, given_way(actor, gives, pose)), actor.kept_out));
-    }
+    if (go_on(actor, next, ahead)) offsets = {};
+    offsets = kept_out(actor.body, ahead.unhindered, ahead.playback.held(), {}, offsets);
+    poses.push_back(ahead.simulated ? ahead.unhindered
+                                    : with_offsets(actor.body, ahead.unhindered, offsets));
   }
   return poses;
+}
+
+MotionInFlight Stage::in_flight(FighterId fighter, Tick tick) const {
+  const Actor& actor = actors_[fighter.at()];
+  MotionInFlight motion;
+  motion.launch = actor.launch;
+  motion.from = tick;
+  // A blow at its end is answered by a body that goes on.
+  const Tick end = std::clamp(actor.launch.end, tick, tick + kShownAhead) + kImpulseStepTicks + 1;
+  motion.poses = continued(fighter, tick, end - tick + 1);
+  for (Tick t = actor.launch.start; t <= end; ++t) motion.clip_ages.push_back(clip_age(actor, t));
+  return motion;
 }
 
 std::vector<FighterTrack> Stage::take_tracks() {

@@ -8,6 +8,7 @@
 #include "motion/variation.h"
 #include "physics/contact.h"
 #include "physics/limits.h"
+#include "planner/motion_tables.h"
 #include "scene/give.h"
 #include "scene/keep_out.h"
 #include "scene/landed.h"
@@ -54,9 +55,13 @@ class Stage {
     return clip_age(actors_[fighter.at()], tick);
   }
   const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
-  const Pose& shown(FighterId fighter) const { return actors_[fighter.at()].playback.shown(); }
+  const Pose& shown(FighterId fighter) const {
+    return actors_[fighter.at()].motion.playback.shown();
+  }
   const Pose& shown_before(FighterId fighter) const;
-  FootContacts held(FighterId fighter) const { return actors_[fighter.at()].playback.held(); }
+  FootContacts held(FighterId fighter) const {
+    return actors_[fighter.at()].motion.playback.held();
+  }
   bool simulated(FighterId fighter) const;
   // Capsules now and one tick ago.
   const SweptBody& swept(FighterId fighter) const { return actors_[fighter.at()].swept; }
@@ -65,35 +70,43 @@ class Stage {
   // one on.
   std::vector<Pose> continued(FighterId fighter, Tick tick, Tick count) const;
 
+  // The same of the launch in flight until it ends, 2 s of it at most, as a planner is told of it.
+  MotionInFlight in_flight(FighterId fighter, Tick tick) const;
+
   std::vector<FighterTrack> take_tracks();
 
  private:
+  // What goes on from tick to tick; a copy of it can run ahead.
+  struct Motion {
+    Playback playback;
+    std::array<ArmGive, 2> gives{};      // what blows on its guard have left
+    std::array<LandedLimb, 4> landed{};  // what its own blows have
+    bool simulated = false;              // the pose shown last was
+    Pose unhindered{};                   // this tick's pose as if nothing stood in its way
+  };
   struct Actor {
     const MotionLibrary* library = nullptr;  // whose clips it shows
     BodyModel body;
-    Playback playback;
+    Motion motion;
     Launch launch{};
     Pace pace{};                    // of this launch
     Variation variation{};          // of this launch
     Pose rest{};                    // what a share of the clip is measured from, world
     std::vector<Pose> simulated{};  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
-    bool was_simulated = false;
-    bool seam = false;                   // a launch began that is not shown yet
-    Pose unhindered{};                   // this tick's pose as if nothing stood in its way
-    LimitExcesses free{};                // how far joints may go before they slow
-    std::array<float, 2> swings{};       // 0 the foot carries .. 1: its leg swings
-    LimitExcesses free_more{};           // of that, what the last seam left
-    std::array<ArmGive, 2> gives{};      // what blows on its guard have left
-    std::array<LandedLimb, 4> landed{};  // what its own blows have
-    LimbOffsets kept_out{};              // what keeps its limbs out of the other bodies
+    bool seam = false;              // a launch began that is not shown yet
+    LimitExcesses free{};           // how far joints may go before they slow
+    std::array<float, 2> swings{};  // 0 the foot carries .. 1: its leg swings
+    LimitExcesses free_more{};      // of that, what the last seam left
+    LimbOffsets kept_out{};         // what keeps its limbs out of the other bodies
     SweptBody swept{};
     FighterTrack track{};
   };
 
   void free_joints(Actor& actor, Tick tick) const;
-  static Pose given_way(const Actor& actor, std::array<ArmGive, 2>& gives, const Pose& pose);
-  static Pose stopped(const Actor& actor, std::array<LandedLimb, 4>& landed, const Pose& pose);
+  bool go_on(const Actor& actor, Tick tick, Motion& motion) const;
+  static Pose given_way(const BodyModel& body, Motion& motion);
+  static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
   Pose clip_pose(const Actor& actor, Tick tick) const;
   static Tick clip_age(const Actor& actor, Tick tick);

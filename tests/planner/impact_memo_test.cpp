@@ -70,26 +70,24 @@ class ImpactMemoTest : public testing::Test {
                     const Contact& contact, Tick t) {
     Met one;
     LandedBlow& blow = one.blow;
-    blow.attack = striker.launch.action;
-    blow.struck_action = target.launch.action;
-    blow.attack_age = striker.table->clamped(striker.age(t));
-    blow.struck_age = target.table->clamped(target.age(t));
+    blow.attack = {striker.table, striker.table->clamped(striker.age(t))};
+    blow.struck = {target.table, target.table->clamped(target.age(t))};
     blow.kind = kind;
     blow.contact = contact;
     blow.attacker_yaw = striker.frame_at(t).yaw - target.frame_at(t).yaw;
     const Frame frame = relative(target.frame_at(t), striker.frame_at(t));
     const Placement seen = frame.placement();
     blow.striking = frame.to_inner(contact.point);
-    const Pose attacker = placed(striker.table->pose_at(blow.attack_age), seen);
+    const Pose attacker = placed(blow.attack.pose(), seen);
     const ActionTable& action = *target.table;
-    one.exact = blow_of(tables().body(), attacker, tables().body(), action.pose_at(blow.struck_age),
-                        contact, kind);
-    one.input.pose = action.pose_at(blow.struck_age);
-    one.input.pose_before = action.pose_at(blow.struck_age - 1);
+    one.exact =
+        blow_of(tables().body(), attacker, tables().body(), blow.struck.pose(), contact, kind);
+    one.input.pose = blow.struck.pose();
+    one.input.pose_before = action.pose_at(blow.struck.age - 1);
     one.input.blow = one.exact;
-    one.input.contacts = action.action->clip.contacts_at(blow.struck_age);
+    one.input.contacts = action.action->clip.contacts_at(blow.struck.age);
     for (Tick k = 0; k <= kImpulseStepTicks; ++k) {
-      one.continued.push_back(action.pose_at(blow.struck_age + k));
+      one.continued.push_back(action.pose_at(blow.struck.age + k));
     }
     return one;
   }
@@ -188,6 +186,35 @@ TEST_F(ImpactMemoTest, ManyBlowsOnOnePoseAreAnsweredAsEachByItself) {
     moved += together[i].outcome.response == ResponseKind::absorb ? 0u : 1u;
   }
   EXPECT_GT(moved, 2u);  // only for these is the own motion asked
+}
+
+// A motion in flight is like no other: the blow on it is answered as it is, once, and forgotten
+// with it.
+TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
+  ImpactMemo memo({&tables()});
+  std::size_t same = 0, asked = 0, moved = 0;
+  for (Met& one : random_blows(40, 15)) {
+    ActionTable shown = *one.blow.struck.table;
+    for (Tick t = 0; t <= shown.length; ++t) shown.clip_ages.push_back(t);
+    shown.motion = memo.begin_motion();
+    one.blow.struck.table = &shown;
+    one.input.continued = one.continued;
+    const std::uint64_t before = memo.counts().entries;
+    const ImpactAnswer answer = memo.answer(one.blow);
+    EXPECT_EQ(memo.counts().entries, before + 1);
+    EXPECT_EQ(memo.answer(one.blow), answer);
+    EXPECT_EQ(memo.counts().entries, before + 1);
+    EXPECT_EQ(memo.recomputed(one.blow), answer);
+    if (glm::length(one.exact.impulse) < kTouchImpulse) continue;
+    const ImpactOutcome exact = impulse_step(tables().body(), one.input);
+    ++asked;
+    same += answer.outcome.response == exact.response && answer.outcome.steps == exact.steps &&
+            std::abs(answer.outcome.margin - exact.margin) < 1e-3f;
+    moved += exact.response == ResponseKind::absorb ? 0u : 1u;
+  }
+  ASSERT_GT(asked, 15u);
+  EXPECT_GT(moved, 2u);
+  EXPECT_EQ(same, asked);
 }
 
 TEST_F(ImpactMemoTest, StoreKeepsBodiesApart) {

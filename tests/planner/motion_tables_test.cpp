@@ -108,5 +108,84 @@ TEST_F(PartsOfResponses, ALaunchFliesWithItsShare) {
   EXPECT_EQ(InFlight(tables(), launch).table, &tables().at(launch.action, 0));
 }
 
+class MotionsInFlight : public testing::Test {
+ protected:
+  static const MotionTables& tables() {
+    static const MotionTables kTables(default_library(), make_body({}));
+    return kTables;
+  }
+  static Launch jab() {
+    Launch launch;
+    launch.action = default_library().find("jab");
+    launch.start = 50;
+    launch.end = launch.start + default_library().action(launch.action).length();
+    launch.placement = {0.4f, -1.0f, 0.7f};
+    launch.aim = radians(10);
+    return launch;
+  }
+  // The clip as it lies in the world, `slow` times as long, from the first tick on.
+  static MotionInFlight as_the_clip(float slow = 1) {
+    MotionInFlight motion;
+    motion.launch = jab();
+    motion.from = motion.launch.start;
+    const InFlight flight(tables(), motion.launch);
+    const auto length = static_cast<Tick>(slow * static_cast<float>(flight.table->length));
+    for (Tick t = 0; t <= length; ++t) {
+      const auto age = static_cast<Tick>(static_cast<float>(t) / slow);
+      motion.clip_ages.push_back(age);
+      motion.poses.push_back(
+          placed(flight.table->pose_at(age), flight.frame_at(motion.launch.start + t).placement()));
+    }
+    return motion;
+  }
+  static float apart(const BodyCapsules& a, const BodyCapsules& b) {
+    float most = 0;
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      most = std::max({most, glm::distance(a[i].a, b[i].a), glm::distance(a[i].b, b[i].b)});
+    }
+    return most;
+  }
+};
+
+TEST_F(MotionsInFlight, ThatAreAsTheirClipsHaveTheirTables) {
+  const MotionInFlight motion = as_the_clip();
+  const ActionTable shown = tables().in_flight(motion), &clip = tables().at(motion.launch.action);
+  EXPECT_EQ(shown.length, clip.length);
+  EXPECT_EQ(shown.next.size(), clip.next.size());
+  ASSERT_EQ(shown.strikes.size(), clip.strikes.size());
+  EXPECT_EQ(shown.strikes[0].strike.active_begin, clip.strikes[0].strike.active_begin);
+  EXPECT_EQ(shown.strikes[0].strike.active_end, clip.strikes[0].strike.active_end);
+  EXPECT_NEAR(shown.strikes[0].reach, clip.strikes[0].reach, 1e-4f);
+  for (Tick t = 0; t <= clip.length; ++t) {
+    EXPECT_LT(apart(shown.capsules_at(t), clip.capsules_at(t)), 1e-4f) << t;
+    EXPECT_EQ(shown.clip_age(t), t);
+  }
+}
+
+TEST_F(MotionsInFlight, AreWhereTheyAreShownAndBeforeThatWhereTheClipIs) {
+  MotionInFlight motion = as_the_clip();
+  const Tick from = 20;
+  motion.from += from;
+  motion.poses.erase(motion.poses.begin(), motion.poses.begin() + from);
+  for (Pose& pose : motion.poses) pose.hips.y += 0.1f;
+  const ActionTable shown = tables().in_flight(motion), &clip = tables().at(motion.launch.action);
+  for (Tick t = 0; t <= clip.length; ++t) {
+    EXPECT_NEAR(apart(shown.capsules_at(t), clip.capsules_at(t)), t < from ? 0 : 0.1f, 1e-4f) << t;
+    EXPECT_NEAR(shown.bound_at(t).center.y, clip.bound_at(t).center.y + (t < from ? 0 : 0.1f),
+                1e-4f);
+  }
+  // The way of the tick in which it begins is in what the contact test asks for.
+  EXPECT_GT(shown.travel_at(from)[index(Part::head)], 0.09f);
+}
+
+TEST_F(MotionsInFlight, StrikeWhenTheirPaceHasThem) {
+  const ActionTable slow = tables().in_flight(as_the_clip(1.5f));
+  const StrikeTable &own = slow.strikes[0], &clip = tables().at(jab().action).strikes[0];
+  EXPECT_NEAR(own.strike.active_begin, 1.5 * clip.strike.active_begin, 1);
+  EXPECT_NEAR(own.strike.active_end, 1.5 * clip.strike.active_end, 1);
+  EXPECT_NEAR(own.reach, clip.reach, 0.01f);
+  EXPECT_EQ(slow.clip_age(own.strike.active_begin), clip.strike.active_begin);
+}
+
 }  // namespace
 }  // namespace ringcraft

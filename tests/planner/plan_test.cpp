@@ -260,6 +260,56 @@ TEST_F(PlanTest, ForeseesWhatTheActionsInFlightDoWithoutADecision) {
   EXPECT_TRUE(planner.foresee(state, FighterId(0)).empty());
 }
 
+// The head is out of the way, or the fist comes late, though both clips meet: the tree goes by what
+// is shown.
+TEST_F(PlanTest, ForeseesBodiesAsTheyAreShown) {
+  FightState state = facing(0.95f);
+  state.now = 1;
+  state.fighters[0].launch = launch("cross", 0, state.fighters[0].launch.placement);
+  state.fighters[1].launch = launch("idle", 0, state.fighters[1].launch.placement);
+  const float scale = make_body({}).scale;
+  const auto shown = [&](std::size_t who, Tick every, Vec3 moved) {
+    MotionInFlight motion;
+    motion.launch = state.fighters[who].launch;
+    motion.from = state.now;
+    for (Tick t = motion.launch.start; t <= motion.launch.end; ++t) {
+      motion.clip_ages.push_back((t - motion.launch.start) / every);
+      if (t < motion.from) continue;
+      Pose pose =
+          pose_at(library(), motion.launch, motion.launch.start + motion.clip_ages.back(), scale);
+      pose.hips += moved;
+      motion.poses.push_back(pose);
+    }
+    return motion;
+  };
+  Planner planner(library(), contenders(2, quick()), {}, 3);
+  const std::vector<Event> clips = planner.foresee(state, FighterId(0));
+  ASSERT_EQ(clips.size(), 1u);
+  planner.show(FighterId(1), shown(1, 1, {}));  // as its clip
+  const std::vector<Event> same = planner.foresee(state, FighterId(0));
+  ASSERT_EQ(same.size(), 1u);
+  EXPECT_EQ(same[0].tick, clips[0].tick);
+  EXPECT_LT(glm::distance(same[0].point, clips[0].point), 1e-4f);
+  EXPECT_LT(glm::distance(same[0].impulse, clips[0].impulse),
+            0.01f * glm::length(clips[0].impulse));
+  planner.show(FighterId(1), shown(1, 1, {0, 0, 1}));
+  EXPECT_TRUE(planner.foresee(state, FighterId(0)).empty());
+  planner.show(FighterId(1), shown(1, 1, {0, 0, 0.04f}));  // leans away a little: met later
+  const std::vector<Event> leans = planner.foresee(state, FighterId(0));
+  ASSERT_EQ(leans.size(), 1u);
+  EXPECT_GT(leans[0].point.z, clips[0].point.z + 0.02f);
+  for (FighterState& fighter : state.fighters) fighter.launch.end *= 2;
+  planner.show(FighterId(1), shown(1, 2, {}));
+  planner.show(FighterId(0), shown(0, 2, {}));
+  const std::vector<Event> late = planner.foresee(state, FighterId(0));
+  ASSERT_EQ(late.size(), 1u);
+  EXPECT_NEAR(late[0].tick, 2 * clips[0].tick, 3);
+  // Another launch is not what was shown.
+  state.fighters[1].launch.start -= 1;
+  state.fighters[0].launch = launch("cross", 1, state.fighters[0].launch.placement);
+  EXPECT_EQ(planner.foresee(state, FighterId(0))[0].tick, clips[0].tick + 1);
+}
+
 TEST_F(PlanTest, RarityMakesARepeatedActionCostly) {
   Style style = quick();
   style.temperature = 0;
@@ -373,10 +423,10 @@ TEST_F(PlanTest, MemoAnswersWhatRecomputingAnswers) {
   const char* struck[] = {"idle", "step_back", "guard_high", "jab"};
   for (int i = 0; i < 25; ++i) {
     LandedBlow blow;
-    blow.attack = library().find(random.below(2) == 0 ? "cross" : "front_kick");
-    blow.struck_action = library().find(struck[random.below(4)]);
-    blow.attack_age = 25 + random.below(10);
-    blow.struck_age = random.below(40);
+    blow.attack.table = &tables().at(library().find(random.below(2) == 0 ? "cross" : "front_kick"));
+    blow.struck.table = &tables().at(library().find(struck[random.below(4)]));
+    blow.attack.age = 25 + random.below(10);
+    blow.struck.age = random.below(40);
     blow.contact.striker = random.below(2) == 0 ? Part::right_hand : Part::right_foot;
     blow.contact.struck = random.below(2) == 0 ? Part::head : Part::abdomen;
     blow.contact.normal = yaw_rotation(random.uniform(-0.6f, 0.6f)) * kForward;

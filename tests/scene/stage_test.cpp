@@ -1,0 +1,85 @@
+// What a planner is told of a launch in flight is what is shown.
+
+#include "scene/stage.h"
+
+#include <gtest/gtest.h>
+
+#include "default_library.h"
+
+namespace ringcraft {
+namespace {
+
+class StageTest : public testing::Test {
+ protected:
+  static Launch launch(const char* name, Tick start, const Placement& placement) {
+    Launch launch;
+    launch.action = default_library().find(name);
+    launch.start = start;
+    launch.end = start + default_library().action(launch.action).length();
+    launch.placement = placement;
+    return launch;
+  }
+  // How far the farthest joint is off, m.
+  static float apart(const Stage& stage, const Pose& a, const Pose& b) {
+    const Skeleton& skeleton = stage.body(FighterId(0)).skeleton;
+    const WorldPose one = world_pose(skeleton, a), other = world_pose(skeleton, b);
+    float most = 0;
+    for (std::size_t i = 0; i < kJointCount; ++i) {
+      most = std::max(most, glm::distance(one.position[i], other.position[i]));
+    }
+    return most;
+  }
+  static void show(Stage& stage, Tick tick) {
+    stage.show(tick);
+    stage.keep_out_and_record();
+  }
+};
+
+TEST_F(StageTest, AMotionInFlightIsWhatWillBeShown) {
+  Stage stage(default_library(), {make_body({})}, Repetitions::varied);
+  const FighterId self(0);
+  stage.begin(self, launch("guard_1", 0, {}));
+  for (Tick t = 0; t <= 30; ++t) show(stage, t);
+  Launch jab =
+      launch("jab_jab_cross", 30, {0.1f, 0.05f, 0.3f});  // not where the idle stands: a blend
+  const Pace pace(default_library().action(jab.action), 0.85f);
+  jab.end = jab.start + pace.length(jab.end - jab.start);
+  stage.begin(self, jab, {}, pace);
+  const MotionInFlight motion = stage.in_flight(self, 30);
+  EXPECT_EQ(motion.launch, jab);
+  EXPECT_EQ(motion.from, 30);
+  ASSERT_GT(static_cast<Tick>(motion.poses.size()), jab.end - jab.start);
+  float off_clip = 0;
+  for (Tick t = 31; t <= jab.end; ++t) {
+    show(stage, t);
+    const auto i = static_cast<std::size_t>(t - 30);
+    EXPECT_LT(apart(stage, motion.poses[i], stage.shown(self)), 0.01f) << t;
+    EXPECT_EQ(motion.clip_ages[i], stage.clip_age(self, t));
+    off_clip =
+        std::max(off_clip, apart(stage, stage.shown(self), pose_at(default_library(), jab, t, 1)));
+  }
+  EXPECT_GT(off_clip, 0.05f);  // the clip by itself would not do
+}
+
+TEST_F(StageTest, AMotionInFlightHasItsSimulatedPosesAndTheWayOutOfThem) {
+  Stage stage(default_library(), {make_body({})});
+  const FighterId self(0);
+  stage.begin(self, launch("guard_1", 0, {}));
+  for (Tick t = 0; t <= 30; ++t) show(stage, t);
+  std::vector<Pose> simulated(15, stage.shown(self));
+  for (std::size_t i = 0; i < simulated.size(); ++i) {
+    simulated[i].hips.x += 0.004f * static_cast<float>(i + 1);
+  }
+  const Launch step = launch("recover_back_1", 30, {});
+  stage.begin(self, step, simulated);
+  const MotionInFlight motion = stage.in_flight(self, 30);
+  for (Tick t = 31; t <= 90; ++t) {
+    show(stage, t);
+    EXPECT_LT(apart(stage, motion.poses[static_cast<std::size_t>(t - 30)], stage.shown(self)),
+              t <= 45 ? 1e-4f : 0.02f)
+        << t;
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
