@@ -43,6 +43,18 @@ Tick aim_ticks(const Action& action) {
   return std::max<Tick>(1, whole / 2);
 }
 
+Tick free_after_fall(const Action& action, const Launch& launch, Tick now) {
+  constexpr Tick kTakenIn = 12, kTakenBack = 6;  // ticks: to see the fall; for the limb's way back
+  if (!action.attacks()) return launch.end;
+  const Tick age = now - launch.start;
+  Tick until = age + kTakenIn;
+  for (const Strike& strike : action.strikes) {
+    const bool thrown = age >= strike.active_begin && age < strike.active_end;
+    if (thrown) until = std::max(until, strike.active_end + kTakenBack);
+  }
+  return std::min(launch.end, launch.start + until);
+}
+
 float aim_share(const Action& action, Tick age) {
   return glm::smoothstep(0.0f, static_cast<float>(aim_ticks(action)), static_cast<float>(age));
 }

@@ -77,6 +77,10 @@ Launch following(const MotionLibrary& library, const Launch& last, ActionId next
 // How long a fallen body lies before it gets up: the ragdoll is at rest by then.
 inline constexpr Tick kLyingTicks = 100;
 
+// When a fighter is free whose opponent begins to fall at `now`: a blow that is on its way is let
+// out, what else the attack holds is not thrown. The launch's end for anything but an attack.
+Tick free_after_fall(const Action& action, const Launch& launch, Tick now);
+
 // The launch of a response at tick `start`, from where the cut action stands. A knockdown lasts
 // until the get-up begins.
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,

@@ -156,6 +156,10 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   victim.queue = {};
   victim.knocked_out = answer.outcome.knockout;
   victim.flight.launch.end = met.tick;
+  if (answer.outcome.response == ResponseKind::knockdown && !setup_->settings.hits_on_downed) {
+    InFlight& other = node.side[static_cast<std::size_t>(1 - event.victim)].flight;
+    other.launch.end = free_after_fall(*other.table->action, other.launch, met.tick);
+  }
 }
 
 // Walks the windows tick by tick; returns the tick of the first hit that cuts an action, else

@@ -421,6 +421,7 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   Answer answer = answer_to(library_, stage_.body(id), cut, state_.now, input, outcome);
   const Launch launch = answer.launch;
   begin(id, launch, std::move(answer.simulated));
+  if (falls) let_off(id);
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
   standing_[id.at()].fell_upon = 0;
 
@@ -436,6 +437,15 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
     int left = 0;
     for (std::size_t i = 0; i < standing_.size(); ++i) left += !is_out(FighterId(i)) ? 1 : 0;
     if (left <= 1) end_ = std::min(end_, launch.end + kAfterKnockout);
+  }
+}
+
+// Whoever fights `fallen` throws no more at it than what is on its way.
+void Bout::let_off(FighterId fallen) {
+  if (scene_.planner.hits_on_downed) return;
+  for (FighterState& one : state_.fighters) {
+    if (one.opponent != fallen) continue;
+    one.launch.end = free_after_fall(library_.action(one.launch.action), one.launch, state_.now);
   }
 }
 

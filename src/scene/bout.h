@@ -66,6 +66,7 @@ class Bout {
   void commit_falls();
   void deliver(FighterId attacker, FighterId target, const Blow& blow, Event event);
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
+  void let_off(FighterId fallen);
   void push_apart();
   bool strikes_now() const;
   void foresee();

@@ -317,6 +317,29 @@ TEST_F(DuelTest, NobodyStandsWithoutHealth) {
   EXPECT_EQ(node.side[1].balance, 2);
 }
 
+// Nobody boxes on through a body that falls, unless it may be hit there.
+TEST_F(DuelTest, WhoKnocksDownIsFreeBeforeItsActionIsOver) {
+  FightState state = facing(0.95f);
+  state.fighters[1].health = 100;
+  for (const bool allowed : {false, true}) {
+    setup_.settings.hits_on_downed = allowed;
+    Duel game(setup_, 500);
+    const DuelNode root = Duel::root(setup_, state);
+    const DuelNode node =
+        struck(game, root, choice(root, 0, "front_kick"), choice(root, 1, "turn_left"));
+    const InFlight& kick = node.side[0].flight;
+    const Tick whole = kick.launch.start + kick.table->length;
+    const Tick active_end = kick.launch.start + kick.table->strikes[0].strike.active_end;
+    if (allowed) {
+      EXPECT_EQ(kick.launch.end, whole);
+      continue;
+    }
+    EXPECT_LT(kick.launch.end, whole);
+    EXPECT_GT(kick.launch.end, active_end);  // what is on its way is let out
+    EXPECT_GE(kick.launch.end, node.now + 12);
+  }
+}
+
 TEST_F(DuelTest, HitIsCreditedInFullToTheAttackerBySide) {
   Style style;
   style.location_weight = style.facing_weight = style.ropes_weight = 0;

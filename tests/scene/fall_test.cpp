@@ -66,6 +66,36 @@ TEST(Fall, ABodyThatFallsUponAnotherHitsItLikeAnyOtherHit) {
   EXPECT_GT(met, 0);
 }
 
+TEST(Fall, NobodyThrowsTheRestOfACombinationAtWhoFalls) {
+  int held_back = 0;  // falls in the middle of a combination
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SceneFile scene = crowd(seed, .5f);
+    scene.fighters.resize(2);
+    scene.fighters[0].placement = {0, -.45f, 0};
+    scene.fighters[1].placement = {0, .45f, kPi};
+    const FightRecord record = simulate_fight(default_library(), scene);
+    const auto& events = record.timeline.events;
+    const auto fall = std::find_if(events.begin(), events.end(), [](const Event& event) {
+      return event.type == EventType::knockdown;
+    });
+    if (fall == events.end()) continue;
+    const FighterId winner(1 - fall->who.at());
+    for (const Event& event : events) {
+      if (event.type != EventType::strike || event.who != winner) continue;
+      EXPECT_LE(event.tick, fall->tick + 12) << "seed " << seed;
+    }
+    for (const Segment& segment : record.timeline.tracks[winner.at()].segments) {
+      if (segment.launch.start >= fall->tick || segment.launch.end <= fall->tick) continue;
+      const Action& action = default_library().action(segment.launch.action);
+      if (!action.attacks()) continue;
+      const Tick age = fall->tick - segment.launch.start;
+      held_back += action.strikes.back().active_begin > age + 14 ? 1 : 0;
+      EXPECT_LT(segment.launch.end, segment.launch.start + action.length()) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(held_back, 0);
+}
+
 TEST(Fall, NobodyIsHitByAFallThatIsOutOfReach) {
   int falls = 0;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
