@@ -73,7 +73,7 @@ struct ImpactInput {
 inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
 
 // Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. With
-// it 12 of 979 blows that landed in 24 duels of a minute (default library, seeds 1-8, 21-28 and
+// it 20 of 1,134 blows that landed in 24 duels of a minute (default library, seeds 1-8, 21-28 and
 // 41-48) knocked out, lost health included: of order one in a hundred (validation V1). As a free
 // head that is 8,500 rad/s2 for 12 ms: the published straights of Olympic boxers, at full strength,
 // have 6,343 +- 1,789.
