@@ -117,10 +117,9 @@ struct ActionTable {
 // simulated response. The tree plays it as it is; of what is still to be launched it has the clip.
 struct MotionInFlight {
   Launch launch;
-  Tick from = 0;            // of the first pose
-  std::vector<Pose> poses;  // world, one a tick
-  std::vector<Tick>
-      clip_ages;  // of the launch's clip, from its first tick to that of the last pose
+  Tick from = 0;                // of the first pose
+  std::vector<Pose> poses;      // world, one a tick
+  std::vector<Tick> clip_ages;  // the clip's, from the launch's first tick to that of the last pose
 };
 
 class MotionTables {
