@@ -27,11 +27,10 @@ struct RunFacts {
   std::uint64_t seed = 0;
   std::vector<Contestant> contestants;  // one a fighter
   std::uint64_t memo_hits = 0, memo_misses = 0;
-  std::uint64_t impulse_steps = 0;  // in all: committed, and first-time in the tree
-  std::uint64_t foreseen = 0;       // contacts that the tree had told of the strikes in flight
-  std::uint64_t agreed_at_launch =
-      0;                     // contacts that it told rightly when somebody last began something
-  bool interrupted = false;  // the report covers what was finished
+  std::uint64_t impulse_steps = 0;     // in all: committed, and first-time in the tree
+  std::uint64_t foreseen = 0;          // contacts that the tree had told of the strikes in flight
+  std::uint64_t agreed_at_launch = 0;  // of them, rightly when somebody last began something
+  bool interrupted = false;            // the report covers what was finished
 };
 
 // What the clock said.

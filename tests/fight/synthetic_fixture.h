@@ -5,6 +5,7 @@
 
 #include "fight/state.h"
 #include "fight/synthetic_library.h"
+#include "launch_of.h"
 
 namespace ringcraft {
 
@@ -15,12 +16,7 @@ class SyntheticFixture : public testing::Test {
     return kLibrary;
   }
   static Launch launch(const char* name, Tick start, Placement placement) {
-    Launch launch;
-    launch.action = library().find(name);
-    launch.start = start;
-    launch.end = start + library().action(launch.action).length();
-    launch.placement = placement;
-    return launch;
+    return launch_of(library(), name, start, placement);
   }
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "default_library.h"
+#include "launch_of.h"
 #include "physics/partial.h"
 
 namespace ringcraft {
@@ -115,11 +116,7 @@ class MotionsInFlight : public testing::Test {
     return kTables;
   }
   static Launch jab() {
-    Launch launch;
-    launch.action = default_library().find("jab");
-    launch.start = 50;
-    launch.end = launch.start + default_library().action(launch.action).length();
-    launch.placement = {0.4f, -1.0f, 0.7f};
+    Launch launch = launch_of(default_library(), "jab", 50, {0.4f, -1.0f, 0.7f});
     launch.aim = radians(10);
     return launch;
   }

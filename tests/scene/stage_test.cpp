@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "default_library.h"
+#include "launch_of.h"
 
 namespace ringcraft {
 namespace {
@@ -12,12 +13,7 @@ namespace {
 class StageTest : public testing::Test {
  protected:
   static Launch launch(const char* name, Tick start, const Placement& placement) {
-    Launch launch;
-    launch.action = default_library().find(name);
-    launch.start = start;
-    launch.end = start + default_library().action(launch.action).length();
-    launch.placement = placement;
-    return launch;
+    return launch_of(default_library(), name, start, placement);
   }
   // How far the farthest joint is off, m.
   static float apart(const Stage& stage, const Pose& a, const Pose& b) {
