@@ -77,11 +77,12 @@ float stopping_seconds(Vec3 velocity) {
 
 // The velocity is that of the rotation vector itself, not the difference of angular velocities:
 // these differ where the offset is large.
-Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever) {
+Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever,
+                     Vec3 with) {
   const Quat spin = shown * glm::inverse(before);
   const Quat carried = glm::normalize(spin * shown);
   const Quat carried_on = glm::normalize(spin * carried);
-  const Vec3 value = rotation_vector(carried * glm::inverse(now));
+  const Vec3 value = rotation_vector_near(carried * glm::inverse(now), with);
   const Vec3 next = rotation_vector_near(carried_on * glm::inverse(after), value);
   const Vec3 velocity = (next - value) / kTickSeconds;
   return {value, velocity, seconds, lever > 0 ? stopping_seconds(velocity * lever) : seconds};

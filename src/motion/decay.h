@@ -32,8 +32,10 @@ float lever_of(const Skeleton& skeleton, Joint joint);
 float stopping_seconds(Vec3 velocity);
 
 // The decay of a rotation that was `before` and `shown` in the last two ticks and from now on
-// follows `now` and `after`. With a `lever`, m, its speed is taken off as soon as that may be.
-Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever = 0);
+// follows `now` and `after`. With a `lever`, m, its speed is taken off as soon as that may be. What
+// is carried by something that has `with` to turn, a rotation vector, goes the same way round.
+Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever = 0,
+                     Vec3 with = {});
 
 // The same of a limb's root, as its swing and turn (joint_turns.h).
 Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,

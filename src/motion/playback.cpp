@@ -197,7 +197,7 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   const std::size_t end = index(leg(side).end), ball = index(toes(side));
   foot.turn = rotation_decay(world_pose(skeleton_, before_).rotation[end],
                              world_pose(skeleton_, shown_).rotation[end], now.rotation[end],
-                             after.rotation[end], blend_seconds_);
+                             after.rotation[end], blend_seconds_, 0, hips_turn());
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
   foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
@@ -407,7 +407,7 @@ void Playback::lead(Side side, Quat clip_turn) {
   foot.by_joints = false;
   foot.turn = rotation_decay(world_pose(skeleton_, before_).rotation[end],
                              world_pose(skeleton_, shown_).rotation[end], clip_turn,
-                             clip_spin * clip_turn, blend_seconds_);
+                             clip_spin * clip_turn, blend_seconds_, 0, hips_turn());
 }
 
 // What goes by joints is kept over the floor without a corner in its way: what that lifts it at

@@ -86,6 +86,7 @@ class Playback {
   float swing_seconds(Side side, const Limb& limb, const Pose& now, float most_acceleration) const;
   Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool lies() const;
+  Vec3 hips_turn() const { return rotation_[index(Joint::hips)].value(); }  // left of the seam
   bool stands_still(const Foot& foot) const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   static float clearing_rise(Decay path, float seconds);
