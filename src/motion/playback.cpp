@@ -19,6 +19,7 @@ constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take o
 constexpr float kLongestStep = 0.45f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
 constexpr float kLedFrom = 0.2f;          // m: nearer to its goal a foot after a simulation is led
+constexpr float kLedSpeed = 1.5f;         // m/s: nor does it pass by faster than that
 constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
 constexpr float kNearlyDown = 0.035f;     // m: a step that is broken off below it is over
@@ -364,9 +365,10 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
   const float height = carried.y - floor;
 
-  // 0. A leg goes on by its joints until it is near where the clip puts it down; of a body that
-  // lies, until it is there.
-  if (foot.by_joints && astray > (lies() ? settings_.restep_distance : kLedFrom)) return;
+  // 0. A leg goes on by its joints until it is near where the clip puts it down and could stop
+  // there; of a body that lies, until it is there.
+  const bool fast = glm::length(velocity - clip_velocity) > kLedSpeed;
+  if (foot.by_joints && (fast || astray > (lies() ? settings_.restep_distance : kLedFrom))) return;
   // 1. Lifted: the way back to the clip.
   if (!planted && foot.mode != Mode::swing) {
     if (lift_waits(foot, other_foot, clip_ball)) return;
@@ -392,8 +394,9 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
     return;
   }
   // 4. A step of its own that has arrived, or that touches the floor on the way.
-  const bool touches = height < kTouching && velocity.y < -kTouchingSpeed &&
-                       astray > kTouchingAstray && glm::length(on_ground(velocity)) < kLandingSpeed;
+  const bool comes_down = velocity.y < -kTouchingSpeed || foot.rise_age > foot.rise_seconds / 2;
+  const bool touches = height < kTouching && comes_down && astray > kTouchingAstray &&
+                       glm::length(on_ground(velocity)) < kLandingSpeed;
   if (foot.mode == Mode::step && (foot.offset.done() || touches)) {
     stand(foot, floor);
   }
