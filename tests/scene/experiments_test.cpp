@@ -18,7 +18,7 @@ double sum(const PairingResult& result, std::int64_t SideTally::*field) {
   return all;
 }
 
-TEST(Experiments, DeepFightersStepAndDefendMoreAndBeatShallowOnes) {
+TEST(Experiments, DeepFightersStepAndDefendMoreAreHitLessAndBeatShallowOnes) {
   const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
   ASSERT_TRUE(library) << library.error().what;
   const auto balanced = read_style(assets_folder() / "styles" / "balanced.toml");
@@ -40,7 +40,9 @@ TEST(Experiments, DeepFightersStepAndDefendMoreAndBeatShallowOnes) {
   };
   EXPECT_GT(sum(deep, &SideTally::steps), 1.5 * sum(shallow, &SideTally::steps));
   EXPECT_GT(defended(deep), 1.5 * defended(shallow));
-  EXPECT_GT(sum(deep, &SideTally::hits), 0);  // careful, not passive
+  // Careful, not passive. Asked of 100 bouts: 0.6 times; six are fewer.
+  EXPECT_GT(sum(deep, &SideTally::hits), 0);
+  EXPECT_LT(sum(deep, &SideTally::hits), 0.75 * sum(shallow, &SideTally::hits));
 }
 
 }  // namespace
