@@ -491,6 +491,82 @@ TEST(Playback, AFootSimulatedIntoTheFloorComesUpWithoutAJump) {
   EXPECT_NEAR(shown.at(shown.size() - 1, Joint::left_toes).y, kSkeleton.toe_height(), 1e-3f);
 }
 
+// Where the body goes round by one side and a foot that stands would by the other, the ankle would
+// be wrung off.
+TEST(Playback, AFootTurnsTheWayRoundItsBodyDoes) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  for (const float sign : {1.0f, -1.0f}) {
+    Pose turned = placed(idle.at(0), {0, 0, sign * radians(185)});
+    for (const Side side : kSides) {
+      Quat& hip = turned.rotation[index(leg(side).root)];
+      hip = glm::angleAxis(sign * radians(-15), kUp) * hip;
+    }
+    Playback playback(kSkeleton);
+    Shown shown;
+    for (int i = 0; i < 5; ++i) {
+      playback.next_simulated(turned);
+      shown.add(playback);
+    }
+    play(playback, idle, {}, 160, shown);
+    for (std::size_t t = 0; t < shown.size(); ++t) {
+      for (const Side side : kSides) {
+        const auto ankle = [&](const Pose& pose) { return pose.rotation[index(leg(side).end)]; };
+        const Quat off = ankle(shown.poses[t]) * glm::inverse(ankle(idle.at(0)));
+        EXPECT_LT(degrees(glm::length(rotation_vector(off))), 60) << t;
+      }
+    }
+    EXPECT_LT(position_jump(shown), 0.02f);
+  }
+}
+
+// A leg that swings through where the clip puts its foot down goes on by its joints: led there, it
+// would be thrown past and pulled straight.
+TEST(Playback, ALegThatSwingsThroughItsPlaceDoesNotJerk) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  for (const float yaw : {0.2f, 0.4f, 0.6f}) {
+    for (const float out : {1.2f, 1.5f}) {
+      for (const float spin : {1.0f, 2.0f, 3.0f}) {
+        Playback playback(kSkeleton);
+        Shown shown;
+        const Limb limb = leg(Side::left);
+        for (Tick tick = -12; tick <= 0; ++tick) {
+          const float s = static_cast<float>(tick) * kTickSeconds;
+          Pose pose = placed(idle.at(0), {0, 0, yaw + spin * s});
+          Quat& hip = pose.rotation[index(limb.root)];
+          hip = glm::angleAxis(out + spin * s, kForward) * hip;
+          pose.hips.y += 0.02f;
+          playback.next_simulated(pose);
+          shown.add(playback);
+        }
+        const std::size_t seam = shown.size();
+        play(playback, idle, {}, 160, shown);
+        EXPECT_LT(velocity_jump(shown, seam + 1, shown.size()), 1.3f) << yaw << out << spin;
+      }
+    }
+  }
+}
+
+// A foot that touches the floor while it is still moved: it stands as soon as it has slowed, and is
+// not taken back along the floor to where it should have landed.
+TEST(Playback, AStepThatHasSlowedOnTheFloorStands) {
+  constexpr Tick kNearlyDown = 36;
+  const Clip step = test::step_clip(kSkeleton, {0, 0, 0.3f});
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, step, {}, kNearlyDown, shown);
+  play(playback, test::idle_clip(kSkeleton, 240), {0, 0.3f, 0}, 80, shown);
+  const float floor = kSkeleton.toe_height() + 0.004f;
+  float slid = 0;
+  for (std::size_t t = kNearlyDown + 1; t < shown.size(); ++t) {
+    for (const Side side : kSides) {
+      const Vec3 from = shown.at(t - 1, toes(side)), to = shown.at(t, toes(side));
+      if (std::max(from.y, to.y) < floor) slid += std::hypot(to.x - from.x, to.z - from.z);
+    }
+  }
+  EXPECT_LT(slid, 0.05f);
+  EXPECT_EQ(shown.held.back(), (FootContacts{true, true}));
+}
+
 TEST(Playback, AScaledBodyStandsOnTheSameFloor) {
   const Skeleton tall = canonical_skeleton(1.95f);
   const float factor = tall.height / kCanonicalHeight;
