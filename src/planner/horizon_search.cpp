@@ -6,17 +6,16 @@
 namespace ringcraft {
 namespace {
 
-constexpr Tick kLeastStep = 30;               // 0.25 s: where a limit does not pay for a whole one
-constexpr Tick kShortHorizon = 60;            // 0.5 s: the first one under a tight limit
-constexpr std::uint64_t kTightLimit = 5'000;  // nodes: fewer may not pay for kFirstHorizon
-constexpr double kFirstGrowth = 8;  // of the nodes per kHorizonStep, before it is measured
+constexpr Tick kGrowthStep = 60;        // 0.5 s
+constexpr Tick kFirstLiveHorizon = 60;  // under a time limit
+constexpr double kFirstGrowth = 8;      // of the nodes per half second, before it is measured
 
 // One step of every move: what is left when the node limit does not pay for the shortest horizon.
 Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
                                const SoftChoice& preference) {
   Searched result;
-  result.horizon = kLeastStep;
-  Duel game(setup, root.now + kLeastStep);
+  result.horizon = kHorizonStep;
+  Duel game(setup, root.now + kHorizonStep);
   std::vector<DuelMove> moves;
   game.moves(root, moves);
   for (const DuelMove& move : moves) {
@@ -58,8 +57,7 @@ Searched search_ahead(const DuelSetup& setup, const FightState& state, const Sof
   RootSearch<Duel> search(search_settings, setup.settings.threads, setup.settings.alpha_beta);
   const std::uint64_t limit = setup.settings.node_limit;
   Searched best;
-  const bool tight = limits.any() || (limit != 0 && limit < kTightLimit);
-  Tick horizon = std::min(wanted, tight ? kShortHorizon : kFirstHorizon);
+  Tick horizon = std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon);
   double growth = kFirstGrowth;
   std::uint64_t nodes_before = 0;
   while (true) {
@@ -75,20 +73,19 @@ Searched search_ahead(const DuelSetup& setup, const FightState& state, const Sof
     if (horizon >= wanted) break;
     const auto nodes = static_cast<double>(std::max<std::uint64_t>(1, search.spent()));
     if (before > 0 && nodes_before > 0) {
-      const double steps = static_cast<double>(horizon - before) / kHorizonStep;
-      growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / steps));
+      const double half_seconds = 2 * seconds(horizon - before);
+      growth = std::max(2.0, std::pow(nodes / static_cast<double>(nodes_before), 1 / half_seconds));
     }
     nodes_before = search.spent();
-    const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
-    // Where what is left should pay for it.
-    const auto paid_for = [&](Tick step) {
-      const double after = std::pow(growth, static_cast<double>(step) / kHorizonStep);
-      return (limit == 0 || after <= static_cast<double>(limit) / nodes) &&
-             (limits.seconds <= 0 || spent.count() * (1 + after) <= limits.seconds);
-    };
-    const Tick step = paid_for(kHorizonStep) ? kHorizonStep : kLeastStep;
-    if (!paid_for(step)) break;
-    horizon = std::min(wanted, horizon + step);
+    // The next step, where what is left should pay for it.
+    const double after =
+        std::pow(growth, static_cast<double>(kHorizonStep) / static_cast<double>(kGrowthStep));
+    if (limit != 0 && after > static_cast<double>(limit) / nodes) break;
+    if (limits.seconds > 0) {
+      const std::chrono::duration<double> spent = SearchStop::Clock::now() - begin;
+      if (spent.count() * (1 + after) > limits.seconds) break;
+    }
+    horizon = std::min(wanted, horizon + kHorizonStep);
   }
   return best.roots.empty() ? weighed_by_first_step(setup, root, preference) : std::move(best);
 }

@@ -17,8 +17,8 @@ struct Searched {
 };
 
 inline constexpr Tick kLongestHorizon = 10 * kTicksPerSecond;
-inline constexpr Tick kFirstHorizon = 120;  // 1 s
-inline constexpr Tick kHorizonStep = 60;    // 0.5 s
+inline constexpr Tick kFirstHorizon = 90;  // 0.75 s
+inline constexpr Tick kHorizonStep = 30;   // 0.25 s
 
 // The decision of side 0 of `setup` at state.now, to its style's horizon or as far as the node
 // limit of the settings and `limits` carry.
