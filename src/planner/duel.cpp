@@ -48,6 +48,18 @@ DuelCounts DuelCounts::operator-(const DuelCounts& o) const {
           penetration - o.penetration, candidates - o.candidates};
 }
 
+Duel::Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(horizon) {
+  for (int i = 0; i < 2; ++i) {
+    const SideSetup& own = side(i);
+    LaunchRange& range = launches_[static_cast<std::size_t>(i)];
+    for (const std::int32_t points : own.launch) {
+      range.least = std::min(range.least, points / 1000.0);
+      range.most = std::max(range.most, points / 1000.0);
+    }
+    range.least -= own.weights.control * own.weights.duration * seconds(own.tables->longest_lead());
+  }
+}
+
 DuelNode Duel::root(const DuelSetup& setup, const FightState& state) {
   Node node;
   node.now = state.now;
@@ -101,6 +113,42 @@ std::uint64_t Duel::hash(const Node& node) const {
     for (const ActionId queued : one.queue) mixer.add(queued.value, 0);
   }
   return mixer.digest();
+}
+
+// Whether one of its strikes may still land or be judged.
+bool Duel::may_strike(const InFlight& flight, Tick after) const {
+  const std::vector<StrikeTable>& strikes = flight.table->strikes;
+  return std::any_of(strikes.begin(), strikes.end(), [&](const StrikeTable& one) {
+    return flight.launch.start + one.strike.active_begin <= horizon_ &&
+           flight.launch.start + one.strike.active_end > after;
+  });
+}
+
+ValueRange Duel::range(const Node& node) const {
+  if (node.side[0].pending.valid() || node.side[1].pending.valid()) return {};
+  for (const Bystander& one : setup_->others) {
+    if (may_strike(one.flight, node.now)) return {};
+  }
+  constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
+  constexpr double kRounding = 0.001;  // points: every credit is rounded by itself
+  const double samples = (horizon_ - node.now) / kLocationEvery + 1;
+  double least = 0, most = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SideSetup& own = setup_->side[i];
+    const InFlight& flight = node.side[i].flight;
+    if (flight.launch.end + own.tables->lull() < horizon_ || may_strike(flight, node.now)) {
+      return {};
+    }
+    const int launches = flight.launch.end < horizon_ ? 1 : 0;
+    const double low = samples * (kSpan * least_location_rate(own.weights) - kRounding) +
+                       launches * (launches_[i].least - 2 * kRounding);
+    const double high = launches * (launches_[i].most + kRounding);
+    const double factor = setup_->factors.rest[i];
+    least += std::min(factor * low, factor * high);
+    most += std::max(factor * low, factor * high);
+  }
+  return {node.gained + static_cast<std::int32_t>(std::floor(1000 * least)),
+          node.gained + static_cast<std::int32_t>(std::ceil(1000 * most))};
 }
 
 void Duel::note_term(int who, Term term, double points, std::int32_t credited) const {

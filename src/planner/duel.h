@@ -117,7 +117,7 @@ class Duel {
   using Node = DuelNode;
   using Move = DuelMove;
 
-  Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(horizon) {}
+  Duel(const DuelSetup& setup, Tick horizon);
 
   // The root of the tree in which `planner` decides at state.now.
   static Node root(const DuelSetup& setup, const FightState& state);
@@ -127,6 +127,9 @@ class Duel {
   std::int32_t value(const Node& node) const { return node.gained; }
   std::int32_t gained(const Node& node) const { return node.gained; }
   std::uint64_t hash(const Node& node) const;
+  // Where no blow can land or be evaded any more, whoever launches what: what locations and
+  // launches can still bring. Anything elsewhere.
+  ValueRange range(const Node& node) const;
   void moves(const Node& node, std::vector<Move>& moves);
   Child<Node> apply(const Node& node, const Move& move);
   // The same in two parts: check() adds to the fault how far bodies penetrate on the way.
@@ -197,9 +200,14 @@ class Duel {
   void judge_evasions(Node& node, Tick from, Tick to);
   void add_location(Node& node, Tick from, Tick to) const;
   std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to);
+  bool may_strike(const InFlight& flight, Tick after) const;
 
   const DuelSetup* setup_;
   Tick horizon_;
+  struct LaunchRange {  // F_control of whatever a side launches, points
+    double least = 0, most = 0;
+  };
+  std::array<LaunchRange, 2> launches_;
   DuelCounts counts_;
   std::vector<DuelEvent>* events_ = nullptr;
   DuelTerms* terms_ = nullptr;

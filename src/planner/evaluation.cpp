@@ -47,6 +47,11 @@ double location_rate(const Weights& weights, double distance, double cosine, dou
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
 }
 
+double least_location_rate(const Weights& weights) {
+  const double farthest = kLeastNearness - kOverlapCost * kOverlapDistance;
+  return weights.location * farthest - weights.facing * 2 - weights.ropes;
+}
+
 double launch_points(const Weights& weights, const Style& style, const Action& action, double use) {
   const double cost = weights.rarity * use + weights.duration * seconds(action.length());
   double points = -weights.control * cost;

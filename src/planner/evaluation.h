@@ -40,6 +40,9 @@ Weights weights_at(const Style& style, double quiet);
 // the own facing, `to_ropes` from the own root to the nearest ropes (m).
 double location_rate(const Weights& weights, double distance, double cosine, double to_ropes);
 
+// The least that it can be; it is never above 0.
+double least_location_rate(const Weights& weights);
+
 // F_control of a launch, points (mostly a cost): `use` is phi, the action's share of recent
 // launches.
 double launch_points(const Weights& weights, const Style& style, const Action& action, double use);

@@ -282,6 +282,24 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     table.way_left = way_left(body_.skeleton, table.pose);
     if (kind == ResponseKind::absorb) add_parts(response);
   }
+  find_lull();
+}
+
+void MotionTables::find_lull() {
+  lull_ = std::numeric_limits<Tick>::max() / 2;
+  const auto launched = [&](ActionId action) {
+    lull_ = std::min(lull_, at(action).length - 1);
+    for (const StrikeTable& strike : at(action).strikes) {
+      lull_ = std::min(lull_, strike.strike.active_begin - 1);
+    }
+  };
+  for (const Followers& one : followers_) {
+    for (const NextAction& next : one.next) {
+      launched(next.to);
+      for (const ActionId passed : next.path) launched(passed);
+      longest_lead_ = std::max(longest_lead_, next.lead);
+    }
+  }
 }
 
 void MotionTables::add_parts(ActionId action) {

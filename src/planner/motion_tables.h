@@ -135,6 +135,9 @@ class MotionTables {
   const ActionTable& at(ActionId action, float share) const;
   // Of the library's actions and of parts of them.
   std::size_t count() const { return actions_.size(); }
+  // For so many ticks after its launch no choice strikes or ends.
+  Tick lull() const { return lull_; }
+  Tick longest_lead() const { return longest_lead_; }  // NextAction::lead
 
   // The table of a launch as it is shown, by ticks since the launch in place of the clip's age. Of
   // this body; before the first pose and behind the last it is the clip's.
@@ -146,13 +149,15 @@ class MotionTables {
   const MotionLibrary& library_;
   BodyModel body_;
   void add_parts(ActionId action);
+  void find_lull();
 
   std::vector<ActionTable> actions_;
   struct Followers {
     std::vector<NextAction> next, over;
   };
   std::vector<Followers> followers_;  // by action
-  std::vector<std::size_t> parts_;    // by action: the first of its parts, 0 where it has none
+  Tick lull_ = 0, longest_lead_ = 0;
+  std::vector<std::size_t> parts_;  // by action: the first of its parts, 0 where it has none
 };
 
 // A launch resolved against its tables: where its action space and its root lie at a tick.

@@ -67,6 +67,7 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
 };
 // And, if it likes:
 // - context(node), what a move is an answer to, as a number;
+// - range(node), between what the value of a node must lie, known without looking below it;
 // - step(node, move) and check(node, move, child), which together are apply(): the part of a fault
 //   that costs much is added by check(), and is not asked for where the child cannot matter;
 // - resume(node, move, child): the horizon of an earlier search cut the child off; plays it on to
@@ -75,6 +76,11 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
 
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
 inline constexpr std::int32_t kBest = std::numeric_limits<std::int32_t>::max() / 4;
+
+// Both included.
+struct ValueRange {
+  std::int32_t least = kWorst, most = kBest;
+};
 
 // Ends a search from outside: asked for, or late. What it ends is thrown away.
 class SearchStop {
@@ -105,7 +111,7 @@ struct SearchSettings : SearchDevices {
 
 struct SearchCounts {
   std::uint64_t nodes = 0;   // all of them
-  std::uint64_t leaves = 0;  // terminal
+  std::uint64_t leaves = 0;  // terminal, or outside of the window whatever is below
   std::uint64_t forced = 0;
   std::uint64_t cutoffs = 0;
   std::uint64_t table_cutoffs = 0;
@@ -351,9 +357,10 @@ class Search {
       aborted_ = true;
     }
     if (aborted_) return 0;
-    if (game.terminal(node)) {
+    const ValueRange range = range_of(game, node);
+    if (game.terminal(node) || range.least >= beta || range.most <= alpha) {
       ++counts_.leaves;
-      return game.value(node);
+      return range.least >= beta ? range.least : range.most;
     }
     const Actor actor = game.actor(node);
     Spot& spot = spot_of(game, node, depth, kept);
@@ -448,12 +455,13 @@ class Search {
     for (const std::uint32_t i : here.order) {
       Edge& edge = spot.edges[i];
       const Child<Node>& child = step(game, node, edge);
-      if (any && child.fault == 0 && game.terminal(child.node)) {
-        // An end outside of the window, beside a sound child: whether it is struck off is the same.
-        const std::int32_t value = game.value(child.node);
-        if (max ? value <= alpha : value >= beta) {
+      if (any && child.fault == 0) {
+        // Outside of the window, beside a sound child: whether it is struck off is the same.
+        const ValueRange range = range_of(game, child.node);
+        if (max ? range.most <= alpha : range.least >= beta) {
           ++counts_.nodes, ++counts_.leaves;
-          found.value = max ? std::max(found.value, value) : std::min(found.value, value);
+          found.value =
+              max ? std::max(found.value, range.most) : std::min(found.value, range.least);
           continue;
         }
       }
@@ -510,6 +518,13 @@ class Search {
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
+  }
+
+  // Of a leaf its value, twice.
+  static ValueRange range_of(G& game, const Node& node) {
+    if (game.terminal(node)) return {game.value(node), game.value(node)};
+    if constexpr (requires { game.range(node); }) return game.range(node);
+    return {};
   }
 
   // What a move answers, where the game says so: the same number for the same thing.

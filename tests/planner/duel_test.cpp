@@ -166,6 +166,70 @@ TEST_F(DuelTest, AlphaBetaIsMinimaxOnRealFightsWithPruningOffAndOn) {
   }
 }
 
+TEST_F(DuelTest, EveryValueLiesInItsRange) {
+  prune_nothing();
+  int known = 0, unknown = 0, tight = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    Random random(seed);
+    Style style;
+    style.candidates = 4;
+    style.leaf = seed % 2 == 0 ? LeafValue::paper : LeafValue::weighted;
+    style.ropes_weight = random.uniform(0, 2);
+    set_style(style);
+    for (SideSetup& side : setup_.side) {
+      for (std::int32_t& points : side.launch) points = random.below(4000) - 3000;
+    }
+    setup_.discount = discounts(seed % 3 == 0 ? 0.5 : 1, 200);
+    setup_.settings.ring_half_m = 1;
+    const Tick horizon = 20 + random.below(60);
+    Duel game(setup_, horizon);
+    DuelNode node = Duel::root(setup_, random_state(seed));
+    std::vector<DuelMove> moves;
+    while (!game.terminal(node)) {
+      const ValueRange range = game.range(node);
+      if (range.least == kWorst) {
+        ++unknown;
+        EXPECT_EQ(range.most, kBest);
+      } else {
+        ++known;
+        SearchCounts counts;
+        const std::int32_t value = minimax(game, node, counts);
+        EXPECT_GE(value, range.least) << seed;
+        EXPECT_LE(value, range.most) << seed;
+        tight += range.most - value < 200 ? 1 : 0;
+      }
+      game.moves(node, moves);
+      node =
+          game.apply(node,
+                     moves[static_cast<std::size_t>(random.below(static_cast<int>(moves.size())))])
+              .node;
+    }
+  }
+  EXPECT_GT(known, 200);
+  EXPECT_GT(unknown, 200);
+  EXPECT_GT(tight, 20);
+}
+
+TEST_F(DuelTest, AnythingMayComeWhileABlowMayLand) {
+  FightState state = facing(1.0f);
+  const Launch idle = state.fighters[1].launch;
+  const auto known = [&](const Launch& of_1, Tick horizon) {
+    state.fighters[1].launch = of_1;
+    return Duel(setup_, horizon).range(Duel::root(setup_, state)).most < kBest;
+  };
+  const Tick lull = tables().lull();
+  ASSERT_GT(lull, 10);
+  EXPECT_TRUE(known(idle, lull));
+  EXPECT_FALSE(known(idle, lull + 1));  // a blow that is launched now
+  const Strike& strike = library().action(library().find("cross")).strikes[0];
+  const auto cross = [&](Tick age) { return launch("cross", -age, idle.placement); };
+  EXPECT_TRUE(known(cross(0), lull));
+  EXPECT_FALSE(known(cross(strike.active_begin - lull), lull));  // begins at the horizon
+  EXPECT_TRUE(known(cross(strike.active_begin - lull - 1), lull));
+  EXPECT_FALSE(known(cross(strike.active_end - 1), lull));
+  EXPECT_TRUE(known(cross(strike.active_end), lull));
+}
+
 // Temporal expansion as a calendar: ends and ties only, no bodies.
 struct Calendar {
   const MotionLibrary& library;

@@ -17,6 +17,7 @@ struct Toy {
     std::int32_t value = 0;            // of a leaf, less what was gained on the way
     std::int32_t gain = 0;             // on the edge into it
     std::uint64_t hash = 0;
+    ValueRange range;  // less what was gained on the way, that into it included
   };
   struct Node {
     std::int32_t at = 0;
@@ -33,6 +34,11 @@ struct Toy {
   Actor actor(const Node& node) { return vertex(node).actor; }
   std::int32_t value(const Node& node) { return vertex(node).value + node.gained; }
   std::int32_t gained(const Node& node) { return node.gained; }
+  ValueRange range(const Node& node) {
+    const ValueRange& own = vertex(node).range;
+    if (own.least == kWorst) return own;
+    return {own.least + node.gained, own.most + node.gained};
+  }
   std::uint64_t hash(const Node& node) { return vertex(node).hash; }
   void moves(const Node& node, std::vector<Move>& moves) {
     for (std::size_t i = 0; i < vertex(node).children.size(); ++i) {
@@ -59,8 +65,8 @@ struct Toy {
 };
 static_assert(Game<Toy>);
 
-// Unequal depth, the same side twice running, forced nodes, struck-off children, and subtrees that
-// are met on two ways (transpositions).
+// Unequal depth, the same side twice running, forced nodes, struck-off children, subtrees that are
+// met on two ways (transpositions), and nodes whose range is known, more or less well.
 class RandomTree {
  public:
   explicit RandomTree(std::uint64_t seed, bool faults) : random_(seed), faults_(faults) {
@@ -95,6 +101,20 @@ class RandomTree {
         vertex.faults.push_back(struck ? 1 + random_.below(3) : 0);
       }
     }
+    ValueRange below{vertex.value, vertex.value};
+    if (!vertex.children.empty()) {
+      below = {kBest, kWorst};
+      for (const std::int32_t child : vertex.children) {
+        const auto to = static_cast<std::size_t>(child);
+        below.least = std::min(below.least, vertices_[to].gain + ranges_[to].least);
+        below.most = std::max(below.most, vertices_[to].gain + ranges_[to].most);
+      }
+      if (random_.below(3) == 0) {
+        vertex.range = {below.least - random_.below(10), below.most + random_.below(10)};
+      }
+    }
+    ranges_.resize(vertices_.size());
+    ranges_[static_cast<std::size_t>(at)] = below;
     vertices_[static_cast<std::size_t>(at)] = vertex;
     if (depth > 2) closed_.push_back(at);
     return at;
@@ -105,6 +125,7 @@ class RandomTree {
   int depth_ = 0, width_ = 0;
   int sound_ = 0;  // children in four that are not struck off; often all of a node are
   std::vector<Toy::Vertex> vertices_;
+  std::vector<ValueRange> ranges_;    // of what is below each vertex
   std::vector<std::int32_t> closed_;  // finished subtrees: may be met again
 };
 

@@ -73,6 +73,9 @@ TEST(EvaluationTest, LocationIsBestAtThePreferredDistanceFacingTheOpponent) {
   EXPECT_DOUBLE_EQ(location_rate(weights, weights.distance, 1, 0), -1);
   EXPECT_DOUBLE_EQ(location_rate(weights, weights.distance, 1, 0.4), -0.5);
   EXPECT_LT(location_rate(weights, 0.3, 1, 3), location_rate(weights, 0.5, 1, 3) - 2);
+  EXPECT_DOUBLE_EQ(location_rate(weights, 50, -1, 0), -3 - 2 - 1);
+  EXPECT_LE(least_location_rate(weights), location_rate(weights, 50, -1, 0));
+  EXPECT_LE(least_location_rate(weights), location_rate(weights, 0, -1, 0));
 }
 
 TEST(EvaluationTest, BoredomComesCloserAndDaresMore) {
