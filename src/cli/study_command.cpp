@@ -147,9 +147,11 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, const Bou
   study.interrupted = run.stopped();
   study.said.push_back(fmt::format(
       "{} bouts of {:.0f} s a pairing at most, every second one with the sides swapped; ring "
-      "{:.0f} m, seed {}, library {} ({} actions, mean length {:.2f} s), node limit {}.",
+      "{:.0f} m, seed {}, library {} ({} actions, mean length {:.2f} s, {:.0f} % longer than 1 s), "
+      "node limit {}.",
       series.bouts, series.duration_s, series.ring_m, scene->seed, used->name(),
-      used->actions().size(), mean_choice_seconds(*used), scene->planner.node_limit));
+      used->actions().size(), mean_choice_seconds(*used), 100 * share_longer(*used, 1),
+      scene->planner.node_limit));
   study.said.emplace_back(
       "A knockout wins, else more damage; a lead of 1 point or less is a draw and no win. "
       "Intervals: Wilson, 95 %. First side a, second side b.");

@@ -8,7 +8,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kBeforeBlow = 14, kRamp = 10;  // ticks of the source
+constexpr float kBeforeBlow = 2, kRamp = 3;  // ticks of the source
 
 // Source ticks per shown tick at source time `t`: 1 around a blow, 1 / factor elsewhere.
 float rate_at(const Action& action, float factor, float t) {
@@ -28,7 +28,10 @@ Action slowed(const Action& action, float factor) {
   const auto length = static_cast<float>(action.length());
   std::vector<float> times{0};  // source time of each shown tick
   while (times.back() < length) {
-    times.push_back(std::min(length, times.back() + rate_at(action, factor, times.back())));
+    const float rate = rate_at(action, factor, times.back());
+    const float next =
+        rate < 1 ? times.back() + rate : std::floor(times.back()) + 1;  // its own poses
+    times.push_back(std::min(length, next));
   }
   if (times.size() < 2) return action;
   Action out = action;
@@ -56,6 +59,14 @@ MotionLibrary slowed_library(const MotionLibrary& library, float factor) {
     actions.push_back(forced ? action : slowed(action, factor));
   }
   return MotionLibrary(fmt::format("{} x {:.1f}", library.name(), factor), std::move(actions));
+}
+
+double share_longer(const MotionLibrary& library, double length_s) {
+  const auto& all = library.launchable();
+  const auto longer = std::count_if(all.begin(), all.end(), [&](ActionId id) {
+    return seconds(library.action(id).length()) > length_s;
+  });
+  return all.empty() ? 0 : static_cast<double>(longer) / static_cast<double>(all.size());
 }
 
 double mean_choice_seconds(const MotionLibrary& library) {

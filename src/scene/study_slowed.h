@@ -6,14 +6,16 @@
 namespace ringcraft {
 
 // The same library with every action that a fighter may choose played slower by `factor`, except
-// around its blows: from 0.12 s before a strike can hit until it no longer can, time runs as it
-// did, so that a blow is as hard as before. Combinations have most of their length in such windows
-// and stay nearly as they are; responses, falls and get-ups are not touched. The action machine is
-// built anew.
+// where a strike can hit: there time runs as it did, so that a blow is as hard as before. What
+// leads up to a blow is slower like what answers it: were only the answers slower, none would come
+// in time. Responses, falls and get-ups are not touched. The action machine is built anew.
 MotionLibrary slowed_library(const MotionLibrary& library, float factor);
 
 // One action of it.
 Action slowed(const Action& action, float factor);
+
+// The share of what a fighter may choose that is longer than `length_s`, 0..1.
+double share_longer(const MotionLibrary& library, double length_s);
 
 // Mean length of what a fighter may choose, s.
 double mean_choice_seconds(const MotionLibrary& library);

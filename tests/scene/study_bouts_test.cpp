@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/file.h"
+#include "default_library.h"
 #include "fight/synthetic_fixture.h"
 #include "scene/study_slowed.h"
 
@@ -177,6 +178,33 @@ TEST(StudySlowedTest, BlowsKeepTheirSpeedAndTheRestIsSlower) {
   EXPECT_NEAR(static_cast<double>(slowed(step, 2.2f).length()), 2.2 * step.length(), 2);
   const Placement end = step.clip.root.back(), slow_end = slowed(step, 2.2f).clip.root.back();
   EXPECT_NEAR(end.z, slow_end.z, 1e-4);
+}
+
+TEST(StudySlowedTest, EveryBlowIsAsFastAndComesLaterLikeItsAnswers) {
+  const MotionLibrary& library = default_library();
+  const auto fastest = [&](const Action& action, const Strike& strike) {
+    float most = 0;
+    for (Tick t = strike.active_begin; t < strike.active_end; ++t) {
+      const Vec3 from =
+          world_pose(library.skeleton(), action.clip.at(t - 1)).position[index(strike.joint)];
+      const Vec3 to =
+          world_pose(library.skeleton(), action.clip.at(t)).position[index(strike.joint)];
+      most = std::max(most, glm::distance(from, to) / kTickSeconds);
+    }
+    return most;
+  };
+  int strikes = 0;
+  for (const ActionId id : library.launchable()) {
+    const Action& action = library.action(id);
+    const Action slow = slowed(action, 2.2f);
+    for (std::size_t i = 0; i < action.strikes.size(); ++i, ++strikes) {
+      const float speed = fastest(action, action.strikes[i]);
+      EXPECT_NEAR(fastest(slow, slow.strikes[i]), speed, 0.001f * speed) << action.name;
+    }
+    if (action.strikes.empty()) continue;
+    EXPECT_GT(slow.strikes[0].active_begin, 1.6 * action.strikes[0].active_begin) << action.name;
+  }
+  EXPECT_GT(strikes, 50);
 }
 
 TEST(StudySlowedTest, ResponsesAreNotTouched) {
