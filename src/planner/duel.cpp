@@ -49,9 +49,9 @@ DuelCounts DuelCounts::operator-(const DuelCounts& o) const {
 }
 
 Duel::Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(horizon) {
-  for (int i = 0; i < 2; ++i) {
-    const SideSetup& own = side(i);
-    LaunchRange& range = launches_[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SideSetup& own = setup.side[i];
+    LaunchRange& range = launches_[i];
     for (const std::int32_t points : own.launch) {
       range.least = std::min(range.least, points / 1000.0);
       range.most = std::max(range.most, points / 1000.0);
@@ -115,7 +115,7 @@ std::uint64_t Duel::hash(const Node& node) const {
   return mixer.digest();
 }
 
-// Whether one of its strikes may still land or be judged.
+// Whether one of its strikes may still land or be judged; one that has landed counts as well.
 bool Duel::may_strike(const InFlight& flight, Tick after) const {
   const std::vector<StrikeTable>& strikes = flight.table->strikes;
   return std::any_of(strikes.begin(), strikes.end(), [&](const StrikeTable& one) {

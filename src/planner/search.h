@@ -357,10 +357,16 @@ class Search {
       aborted_ = true;
     }
     if (aborted_) return 0;
-    const ValueRange range = range_of(game, node);
-    if (game.terminal(node) || range.least >= beta || range.most <= alpha) {
+    if (game.terminal(node)) {
       ++counts_.leaves;
-      return range.least >= beta ? range.least : range.most;
+      return game.value(node);
+    }
+    if constexpr (requires { game.range(node); }) {
+      const ValueRange range = game.range(node);
+      if (range.least >= beta || range.most <= alpha) {
+        ++counts_.leaves;
+        return range.least >= beta ? range.least : range.most;
+      }
     }
     const Actor actor = game.actor(node);
     Spot& spot = spot_of(game, node, depth, kept);
@@ -455,13 +461,12 @@ class Search {
     for (const std::uint32_t i : here.order) {
       Edge& edge = spot.edges[i];
       const Child<Node>& child = step(game, node, edge);
-      if (any && child.fault == 0) {
-        // Outside of the window, beside a sound child: whether it is struck off is the same.
-        const ValueRange range = range_of(game, child.node);
-        if (max ? range.most <= alpha : range.least >= beta) {
+      if (any && child.fault == 0 && game.terminal(child.node)) {
+        // An end outside of the window, beside a sound child: whether it is struck off is the same.
+        const std::int32_t value = game.value(child.node);
+        if (max ? value <= alpha : value >= beta) {
           ++counts_.nodes, ++counts_.leaves;
-          found.value =
-              max ? std::max(found.value, range.most) : std::min(found.value, range.least);
+          found.value = max ? std::max(found.value, value) : std::min(found.value, value);
           continue;
         }
       }
@@ -518,13 +523,6 @@ class Search {
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
-  }
-
-  // Of a leaf its value, twice.
-  static ValueRange range_of(G& game, const Node& node) {
-    if (game.terminal(node)) return {game.value(node), game.value(node)};
-    if constexpr (requires { game.range(node); }) return game.range(node);
-    return {};
   }
 
   // What a move answers, where the game says so: the same number for the same thing.

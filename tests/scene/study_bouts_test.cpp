@@ -207,6 +207,14 @@ TEST(StudySlowedTest, EveryBlowIsAsFastAndComesLaterLikeItsAnswers) {
   EXPECT_GT(strikes, 50);
 }
 
+TEST(StudySlowedTest, MostActionsAreLongerThanASecond) {
+  const MotionLibrary& library = default_library();
+  EXPECT_LT(share_longer(library, 1), 0.5);
+  EXPECT_GT(share_longer(slowed_library(library, 2.2f), 1), 0.5);
+  EXPECT_EQ(share_longer(library, 0), 1);
+  EXPECT_EQ(share_longer(library, 100), 0);
+}
+
 TEST(StudySlowedTest, ResponsesAreNotTouched) {
   const MotionLibrary library = synthetic::library();
   const MotionLibrary slow = slowed_library(library, 2.2f);
