@@ -131,7 +131,7 @@ ValueRange Duel::range(const Node& node) const {
   }
   constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
   constexpr double kRounding = 0.001;  // points: every credit is rounded by itself
-  const double samples = (horizon_ - node.now) / kLocationEvery + 1;
+  const auto samples = static_cast<double>((horizon_ - node.now) / kLocationEvery + 1);
   double least = 0, most = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const SideSetup& own = setup_->side[i];
