@@ -131,7 +131,7 @@ ValueRange Duel::range(const Node& node) const {
   }
   constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
   constexpr double kRounding = 0.001;  // points: every credit is rounded by itself
-  const auto samples = static_cast<double>((horizon_ - node.now) / kLocationEvery + 1);
+  const Tick samples = (horizon_ - node.now) / kLocationEvery + 1;
   double least = 0, most = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const SideSetup& own = setup_->side[i];
@@ -140,8 +140,9 @@ ValueRange Duel::range(const Node& node) const {
       return {};
     }
     const int launches = flight.launch.end < horizon_ ? 1 : 0;
-    const double low = samples * (kSpan * least_location_rate(own.weights) - kRounding) +
-                       launches * (launches_[i].least - 2 * kRounding);
+    const double low =
+        static_cast<double>(samples) * (kSpan * least_location_rate(own.weights) - kRounding) +
+        launches * (launches_[i].least - 2 * kRounding);
     const double high = launches * (launches_[i].most + kRounding);
     const double factor = setup_->factors.rest[i];
     least += std::min(factor * low, factor * high);
