@@ -32,13 +32,13 @@ std::vector<Vec2> hull(std::vector<Vec2> points) {
 }
 
 // Per direction of the push (V2, 75 kg and 1.78 m); the third row carries the recursion of Koolen
-// 2012 one step on: a_3 = a_2 + .31 (a_2 - a_1). Sideways, that with which the simulated body holds
-// V2's 66 N s on the chest: the point mass's .157 leaves it at 61, and its lean too small.
+// 2012 one step on: a_3 = a_2 + .31 (a_2 - a_1). One step sideways: that with which the simulated
+// body holds V2's 66 N s on the chest; with the point mass's .157 it holds 61 and leans too little.
 struct Allowance {
   float fore, aft, side;  // m
 };
 constexpr std::array<Allowance, 4> kAllowances = {
-    {{0, 0, 0}, {.331f, .241f, .18f}, {.433f, .313f, .23f}, {.465f, .335f, .246f}}};
+    {{0, 0, 0}, {.331f, .241f, .18f}, {.433f, .313f, .201f}, {.465f, .335f, .215f}}};
 
 }  // namespace
 
