@@ -495,4 +495,14 @@ float sole_height(const BodyModel& body, const WorldPose& world, Side side) {
   return low;
 }
 
+bool trunk_down(const BodyModel& body, const Pose& pose) {
+  constexpr float kDown = .03f;  // m
+  const BodyCapsules c = capsules(body, world_pose(body.skeleton, pose));
+  for (const Part p : {Part::pelvis, Part::abdomen, Part::chest}) {
+    const Capsule& k = c[index(p)];
+    if (std::min(k.a.y, k.b.y) - k.radius < kDown) return true;
+  }
+  return false;
+}
+
 }  // namespace ringcraft

@@ -70,4 +70,7 @@ std::array<Vec3, 6> sole(const BodyModel& body, const WorldPose& world, Side sid
 // The height of the lowest of them, m.
 float sole_height(const BodyModel& body, const WorldPose& world, Side side);
 
+// Whether pelvis, belly or chest touch the ground, within 3 cm.
+bool trunk_down(const BodyModel& body, const Pose& pose);
+
 }  // namespace ringcraft

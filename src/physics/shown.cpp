@@ -157,15 +157,6 @@ std::vector<Pose> eased(std::span<const Pose> simulated, std::size_t count) {
   return out;
 }
 
-bool trunk_down(const BodyModel& body, const Pose& pose) {
-  const BodyCapsules c = capsules(body, world_pose(body.skeleton, pose));
-  for (const Part p : {Part::pelvis, Part::abdomen, Part::chest}) {
-    const Capsule& k = c[index(p)];
-    if (std::min(k.a.y, k.b.y) - k.radius < .03f) return true;
-  }
-  return false;
-}
-
 float depth_below_ground(const BodyModel& body, const WorldPose& world, Side side) {
   return -std::min(0.0f, sole_height(body, world, side));
 }

@@ -79,10 +79,8 @@ struct Answered {
   bool done = false, stays_up = false, falls = false, knocked_out = false, got_up = false;
   Seam into_clip, into_get_up, back_to_guard;
   double skate = 0;
-  double off = -1;       // rad between the impulse and where the hips go; below 0 where they stay
-  double onset = 0;      // s until the struck joint moves otherwise than it would have
-  double in_charge = 0;  // s until the clip alone is shown
-  int answers = 0;
+  double off = -1;  // rad between the impulse and where the hips go; below 0 where they stay
+  int answers = 0, steps = 0;
   double lifts = -1, lands = -1;  // s from the blow: the first step's foot; below 0 where none
 };
 
@@ -121,6 +119,7 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
   a.falls = outcome.response == ResponseKind::knockdown;
   a.stays_up = !a.falls;
   a.knocked_out = outcome.knockout;
+  a.steps = outcome.steps;
   for (const Event& event : answer->timeline.events) {
     a.answers += event.type == EventType::response || event.type == EventType::knockdown ? 1 : 0;
   }
@@ -163,7 +162,6 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
     a.off = static_cast<double>(
         std::abs(wrapped_angle(yaw_of(ground) - yaw_of(answer->input.blow.impulse))));
   }
-  a.in_charge = seconds(kSimulated);
   return a;
 }
 
@@ -233,6 +231,19 @@ void seen_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
                         off.size()),
             "%", share(within, off.size()), "a wrong one is accepted less", at_least(90));
   rows.said("hips off the impulse, median", "deg", quantile(off, .5), "");
+}
+
+// Of all hits that are answered by steps.
+void count_rows(const std::vector<Answered>& all, HitRows& rows) {
+  rows.group("V2 recovery steps");
+  std::size_t recoveries = 0, two = 0;
+  for (const Answered& a : all) {
+    recoveries += a.steps > 0 ? 1 : 0;
+    two += a.steps > 0 && a.steps <= 2 ? 1 : 0;
+  }
+  if (recoveries == 0) return;
+  rows.held(fmt::format("{} recoveries: two steps at most", recoveries), "%",
+            share(two, recoveries), "back within two steps", at_least(90));
 }
 
 // Of a blow above the legs on a body that stands on both feet, until the shown foot lifts and is
@@ -335,6 +346,7 @@ void failure_rows(const std::vector<Answered>& all, HitRows& rows) {
 void answer_rows(const HitsAsked& asked, HitRows& rows) {
   const std::vector<Answered> all = answers_of(asked, "answers", 10, 150);
   seen_rows(asked, all, rows);
+  count_rows(all, rows);
   step_rows(all, rows);
   failure_rows(all, rows);
   asked.run.say("answers looked at");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/quantile.h"
 #include "base/random.h"
 #include "physics/balance.h"
 #include "physics/ragdoll.h"
@@ -212,6 +213,41 @@ void step_time_rows(const HitsAsked& asked, HitRows& rows) {
             mean(lands), "0.637 +- 0.099", {.35, .65});
 }
 
+// From a blow that just topples a body in a stance to its trunk on the ground, as it is shown.
+void fall_rows(const HitsAsked& asked, HitRows& rows) {
+  rows.group("V2 fall from stance");
+  const BodyModel body = make_body({});
+  const std::array<Pose, 2> stances{square_stance(body), fighting_stance(body)};
+  constexpr std::array<Part, 3> kStruck{Part::head, Part::chest, Part::pelvis};
+  constexpr std::size_t kWayCount = 8, kCount = 2 * kStruck.size() * kWayCount;
+  constexpr float kJustTopples = 1.1f;  // of the impulse that steps still hold
+  constexpr Tick kWatched = 240;
+  std::vector<double> landed(kCount, -1);
+  run_tasks(kCount, asked.run.threads, [&](std::size_t i) {
+    if (asked.run.stopped()) return;
+    const Pose& pose = stances[i % 2];
+    const Part part = kStruck[i / 2 % kStruck.size()];
+    const float way = static_cast<float>(i / 2 / kStruck.size()) * 2 * kPi / kWayCount;
+    const auto hit = [&](float impulse) { return StillHit(body, pose, part, way, impulse); };
+    const float held = threshold(
+        [&](float impulse) { return severity(impulse_step(body, hit(impulse).input)) < 4; });
+    const StillHit topples = hit(kJustTopples * held);
+    const ImpactOutcome outcome = impulse_step(body, topples.input);
+    if (outcome.response != ResponseKind::knockdown || outcome.knockout) return;
+    const auto poses = simulate_response(body, topples.input, outcome, {}, kWatched);
+    for (std::size_t t = 0; t < poses.size() && landed[i] < 0; ++t) {
+      if (trunk_down(body, poses[t])) landed[i] = seconds(static_cast<Tick>(t) + 1);
+    }
+  });
+  std::erase_if(landed, [](double s) { return s < 0; });
+  if (landed.empty()) return;
+  rows.held(
+      fmt::format("trunk on the ground, mean of {} (sd {:.2g})", landed.size(), deviation(landed)),
+      "s", mean(landed), "about 0.7", {.5, .9});
+  rows.said("the quickest tenth", "s", quantile(landed, .1), "");
+  rows.said("the slowest tenth", "s", quantile(landed, .9), "");
+}
+
 }  // namespace
 
 void balance_rows(const HitsAsked& asked, HitRows& rows) {
@@ -222,6 +258,7 @@ void balance_rows(const HitsAsked& asked, HitRows& rows) {
 void recovery_rows(const HitsAsked& asked, HitRows& rows) {
   lean_rows(rows);
   step_time_rows(asked, rows);
+  fall_rows(asked, rows);
 }
 
 }  // namespace ringcraft
