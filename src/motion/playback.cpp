@@ -11,6 +11,7 @@ namespace ringcraft {
 namespace {
 
 constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
+constexpr float kSinkSoft = 0.012f;       // m: over which that sets in
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
@@ -229,15 +230,19 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
   }
 }
 
-// Height of an arc, m, on which a foot that comes down fast does not dip below its goal.
+// Height of an arc, m, on which a foot that comes down fast does not dip below its goal, nor glides
+// to it along the floor.
 float Playback::clearing_rise(Decay path, float seconds) {
   constexpr int kSamples = 12;
-  constexpr float kMost = .15f;  // m
+  constexpr float kMost = .15f;    // m
+  constexpr float kClear = .035f;  // m: of the floor, while the foot has twice that to go
   float rise = 0;
   for (int i = 1; i < kSamples; ++i) {
     path.step(seconds / kSamples);
     const float arc = std::sin(kPi * static_cast<float>(i) / kSamples);
-    rise = std::max(rise, -path.value().y / (arc * arc));
+    const Vec3 left = path.value();
+    const float clear = 4 * i < kSamples ? 0 : std::min(kClear, glm::length(on_ground(left)) / 2);
+    rise = std::max(rise, (clear - left.y) / (arc * arc));
   }
   return std::min(rise, kMost);
 }
@@ -503,7 +508,8 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const Vec3 line = hip - ankle[i];
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
-    needed = std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, 0.004f));
+    needed =
+        std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, kSinkSoft));
   }
   sink_.follow(needed);
   pose.hips.y -= sink_.value;

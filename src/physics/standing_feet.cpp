@@ -8,12 +8,15 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kStill = .8f;     // m/s: a foot that moves faster does not stand
-constexpr float kHeld = .06f;     // m: so far a foot is held back all the way
-constexpr float kMost = .12f;     // m: and no farther than that
-constexpr float kLifted = .02f;   // m: a sole that is higher does not stand
-constexpr float kLanded = .005f;  // m: one that comes down so far stands from there on
-constexpr float kLetGo = .08f;    // s in which what held a foot falls to a third
+constexpr float kStill = .8f;      // m/s: a foot that moves faster does not stand
+constexpr float kHeld = .12f;      // m: so far a foot is held back all the way
+constexpr float kMost = .20f;      // m: and no farther than that
+constexpr float kLifted = .10f;    // m: a sole that is higher has been swept off the floor
+constexpr float kLanded = .005f;   // m: one that comes down so far stands from there on
+constexpr float kLetGo = .08f;     // s in which what held a foot falls to a third
+constexpr float kRise = .045f;     // m: of a sole that is dragged, clear of the floor
+constexpr float kDragged = .015f;  // m: by which it is dragged when it is as high as that
+constexpr float kRiseRate = 50;    // 1/s: of the critically damped spring that lifts it
 constexpr float kSoft = .95f;  // of the leg's length: beyond it the leg stretches ever more slowly
 constexpr float kLongest = .9995f;
 
@@ -39,6 +42,14 @@ StandingFeet::StandingFeet(const BodyModel& body, const ImpactFrame& frame) : bo
   }
 }
 
+void StandingFeet::Foot::rise_to(float height) {
+  const float slope = rising + (rise - height) * kRiseRate;
+  const float fade = std::exp(-kRiseRate * kTickSeconds);
+  const float over = (rise - height + slope * kTickSeconds) * fade;
+  rise = height + over;
+  rising = slope * fade - over * kRiseRate;
+}
+
 void StandingFeet::hold(Pose& pose) {
   const WorldPose world = world_pose(body_.skeleton, pose);
   for (const Side side : {Side::left, Side::right}) {
@@ -47,16 +58,29 @@ void StandingFeet::hold(Pose& pose) {
     const float low = sole_height(body_, world, side);
     const float speed = glm::distance(foot.ball, ball) / kTickSeconds;
     foot.stands = foot.stands || (low < kLanded && speed < kStill);
-    if (low > kLifted) {
-      foot.off *= std::exp(-kTickSeconds / kLetGo);
+    if (low < kLanded) foot.down = 1;
+    if (low > kLifted || foot.down < 1) {
+      const float left = std::exp(-kTickSeconds / kLetGo);
+      foot.off *= left;
+      foot.down *= left;
     } else if (foot.stands) {
       foot.off += foot.ball - ball;
       foot.off.y = 0;
     }
     foot.ball = ball;
+    const float down = foot.stands ? foot.down * std::max(0.0f, low) : 0.0f;
     const Limb limb = leg(side);
-    move_limb_end(body_.skeleton, limb, world.position[index(limb.end)] + held_back(foot.off),
-                  std::clamp(foot.reach, kSoft, kLongest), pose);
+    const Vec3 ankle = world.position[index(limb.end)] + held_back(foot.off) - kUp * down;
+    const auto put = [&](float rise) {
+      move_limb_end(body_.skeleton, limb, ankle + kUp * rise,
+                    std::clamp(foot.reach, kSoft, kLongest), pose);
+    };
+    put(foot.rise);
+    const Vec3 dragged =
+        world_pose(body_.skeleton, pose).position[index(toes(side))] - ball - foot.off;
+    foot.rise_to(kRise *
+                 glm::smoothstep(0.0f, kDragged, glm::length(Vec3{dragged.x, 0, dragged.z})));
+    put(foot.rise);
   }
 }
 

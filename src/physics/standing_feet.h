@@ -13,14 +13,18 @@ class StandingFeet {
   StandingFeet(const BodyModel& body, const ImpactFrame& frame);
 
   // Puts the feet of the next simulated pose, one tick later, back to where they stood, by their
-  // legs. One that is swept is dragged along, one that is lifted comes back to the simulated place.
+  // legs. One that is swept comes off the floor and goes along, one that is lifted comes back to
+  // the simulated place.
   void hold(Pose& pose);
 
  private:
   struct Foot {
+    void rise_to(float height);
     bool stands = false;
-    Vec3 off{};       // m over the ground: where it is shown from where it is simulated
-    Vec3 ball{};      // simulated, one tick ago
+    Vec3 off{};                  // m over the ground: where it is shown from where it is simulated
+    float down = 1;              // of its height over the floor, how much it is kept down
+    Vec3 ball{};                 // simulated, one tick ago
+    float rise = 0, rising = 0;  // m, m/s: above where it is simulated, while it is dragged
     float reach = 0;  // how straight the leg was when the blow landed, as a share of its length
   };
   const BodyModel& body_;

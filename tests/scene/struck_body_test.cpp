@@ -1,0 +1,71 @@
+// What people see of feet and hips under a blow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "motion/quality.h"
+#include "physics/ragdoll.h"
+#include "scene/hit_fixture.h"
+
+namespace ringcraft {
+namespace {
+
+struct StruckCase {
+  const char* action;
+  double at_s;
+  Part part;
+  Vec3 impulse;
+  float tone;
+};
+
+HitAnswer answer_to_case(const StruckCase& c) {
+  HitQuery hit = hits::query(c.action, c.at_s);
+  hit.part = c.part;
+  hit.impulse = c.impulse;
+  hit.tone = c.tone;
+  return simulate_hit(default_library(), hit).value();
+}
+
+std::span<const Pose> frames_from_hit(const HitAnswer& answer) {
+  return std::span(answer.timeline.tracks.front().frames)
+      .subspan(static_cast<std::size_t>(answer.hit_tick));
+}
+
+// A leg that is struck, a foot that a body is knocked off, a kick that is cut short and set down.
+TEST(StruckFeet, DoNotSlideUnderABodyThatStaysUp) {
+  const std::vector<StruckCase> cases{
+      {"step_forward_left_long", .163, Part::right_thigh, {12.425f, 0, 10.467f}, .973f},
+      {"jab", .111, Part::right_thigh, {8.430f, 0, 125.340f}, .748f},
+      {"guard_2", .327, Part::right_thigh, {54.285f, 0, -93.265f}, .992f},
+      {"slip_left", .312, Part::abdomen, {-81.620f, 0, -96.740f}, .862f},
+      {"roundhouse_rear_middle_near", .284, Part::left_thigh, {-19.839f, 0, -5.402f}, .743f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    EXPECT_EQ(
+        foot_skate_ratio(answer.bodies.front().skeleton, frames_from_hit(answer), kTicksPerSecond),
+        0)
+        << c.action;
+  }
+}
+
+// No blow lifts a foot by itself that stands; a step takes time to begin.
+TEST(StruckFeet, StandUntilTheBodyHasHadTimeToStep) {
+  const std::vector<StruckCase> cases{
+      {"rear_uppercut", .676, Part::abdomen, {-3.026f, 0, 98.929f}, .895f},
+      {"low_guard", .303, Part::abdomen, {-84.214f, 0, -104.575f}, .835f},
+      {"idle_guard_2", .202, Part::abdomen, {15.945f, 0, 71.456f}, .998f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    const BodyModel& body = answer.bodies.front();
+    const auto frames = frames_from_hit(answer);
+    for (Tick t = 0; t < ticks(.15); ++t) {
+      const WorldPose world = world_pose(body.skeleton, frames[static_cast<std::size_t>(t)]);
+      for (const Side side : {Side::left, Side::right}) {
+        EXPECT_LT(sole_height(body, world, side), .025f) << c.action << " " << t;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringcraft
