@@ -387,6 +387,10 @@ void Ragdoll::push(Part part, Vec3 point, Vec3 impulse) {
   b.applyImpulse(bt(impulse), bt(point) - b.getCenterOfMassPosition());
 }
 
+void Ragdoll::quicken(Vec3 velocity) {
+  for (const auto& b : world_->bodies) b->setLinearVelocity(b->getLinearVelocity() + bt(velocity));
+}
+
 void Ragdoll::step() {
   // With 0 substeps Bullet takes the whole time as one step.
   world_->world->stepSimulation(world_->settings.step, 0);

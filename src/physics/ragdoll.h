@@ -49,6 +49,7 @@ class Ragdoll {
   // `back`, whatever its muscle's tone. (Bullet's cones are soft where they are wide.)
   void stop(const Pose& back, const std::array<bool, kPartCount>& beyond);
   void push(Part part, Vec3 point, Vec3 impulse);  // world, m and N s
+  void quicken(Vec3 velocity);                     // the whole body, m/s
   void step();
 
   Pose pose() const;  // what the body shows now, on the canonical skeleton

@@ -5,6 +5,7 @@
 
 #include "motion/ik.h"
 #include "motion/joint_turns.h"
+#include "physics/braking.h"
 #include "physics/impact_frame.h"
 #include "physics/response.h"
 #include "physics/standing_feet.h"
@@ -294,6 +295,7 @@ class Shown {
         balance_(body, frame_),
         mend_(body, frame_.pose()),
         feet_(body, frame_),
+        braking_(body, frame_),
         within_(frame_.pose()),
         into_clip_(seconds_into_clip()),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
@@ -315,6 +317,7 @@ class Shown {
  private:
   void step(int k) {
     keep_ranges();
+    braking_.brake(ragdoll_, static_cast<float>(k) * kRagdollStep);
     if (k < steps_of_blow_) {
       strike(ragdoll_, body_, frame_, 1.0f / static_cast<float>(steps_of_blow_));
     }
@@ -478,6 +481,7 @@ class Shown {
   Balance balance_;
   Mender mend_;
   StandingFeet feet_;
+  Braking braking_;
   bool stopped_ = false;  // some joint is being driven back
   Pose within_;           // the last pose looked at
   float into_clip_;       // s

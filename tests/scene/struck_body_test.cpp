@@ -67,5 +67,20 @@ TEST(StruckFeet, StandUntilTheBodyHasHadTimeToStep) {
   }
 }
 
+// Who was on the way somewhere else when the blow landed brakes, and goes the way of the blow.
+TEST(StruckBodies, GoTheWayOfTheBlowWhereverTheyWereGoing) {
+  const std::vector<StruckCase> cases{
+      {"step_forward_long", .073, Part::right_thigh, {18.255f, 0, -62.071f}, .622f},
+      {"cross", .370, Part::head, {-26.548f, 0, 40.630f}, .986f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    const auto frames = frames_from_hit(answer);
+    const Vec3 went = frames[static_cast<std::size_t>(ticks(.4))].hips - frames[0].hips;
+    const float off =
+        wrapped_angle(yaw_of({went.x, 0, went.z}) - yaw_of(answer.input.blow.impulse));
+    EXPECT_LT(std::abs(off), radians(30)) << c.action;
+  }
+}
+
 }  // namespace
 }  // namespace ringcraft
