@@ -297,7 +297,8 @@ class Shown {
         feet_(body, frame_),
         braking_(body, frame_),
         within_(frame_.pose()),
-        into_clip_(seconds_into_clip()),
+        into_clip_(seconds_to_clip(kIntoClip, 50)),
+        meet_by_(kMeetFrom + seconds_to_clip(kMeetBy - kMeetFrom, 20)),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
@@ -349,24 +350,34 @@ class Shown {
     return frame_.in(target_[static_cast<std::size_t>(std::clamp(tick, 0, last))]);
   }
 
-  // The aim goes to the clip in kIntoClip, or slower where a limb has far to go (a kick's leg): on
-  // the way of a smoothstep over T s a distance d takes 6 d / T^2 of acceleration.
-  float seconds_into_clip() const {
-    constexpr float kMostAcceleration = 50;  // m/s2
+  // On the way of a smoothstep over T s a distance d takes 6 d / T^2 of acceleration: where a limb
+  // has far to go to the clip (a kick's leg), no less than that takes at `most_acceleration`, m/s2.
+  float seconds_to_clip(float least, float most_acceleration) const {
     const float far = largest_joint_distance(world_pose(body_.skeleton, frame_.continued(0)),
                                              world_pose(body_.skeleton, clip(0)));
-    return std::max(kIntoClip, std::sqrt(6 * far / kMostAcceleration));
+    return std::max(least, std::sqrt(6 * far / most_acceleration));
+  }
+
+  // The cut action, slowing from the blow on until it stands where the impulse step lets it go: a
+  // limb in full swing that had to stop there would be thrown.
+  Pose cut(Tick tick) const {
+    constexpr float kKnown = kImpulseStepTicks;
+    const float age = std::min(static_cast<float>(tick), 2 * kKnown);
+    const float at = age - age * age / (4 * kKnown);
+    const auto whole = static_cast<Tick>(at);
+    return mix(frame_.continued(whole), frame_.continued(whole + 1),
+               at - static_cast<float>(whole));
   }
 
   Pose aim(Tick tick) const {
     const float share = glm::smoothstep(0.0f, into_clip_, static_cast<float>(tick) * kTickSeconds);
     if (share >= 1) return clip(tick);
-    return mix(frame_.continued(tick), clip(tick), share);
+    return mix(cut(tick), clip(tick), share);
   }
 
   Pose stand_tick(Tick tick) {
     const float now = static_cast<float>(tick) * kTickSeconds;
-    const float meet = glm::smoothstep(kMeetFrom, kMeetBy, now);
+    const float meet = glm::smoothstep(kMeetFrom, meet_by_, now);
     if (meet >= 1) return frame_.out(clip(tick));
     const Pose from = aim(tick - 1), to = aim(tick);
     for (int half = 0; half < 2; ++half) {
@@ -482,9 +493,9 @@ class Shown {
   Mender mend_;
   StandingFeet feet_;
   Braking braking_;
-  bool stopped_ = false;  // some joint is being driven back
-  Pose within_;           // the last pose looked at
-  float into_clip_;       // s
+  bool stopped_ = false;       // some joint is being driven back
+  Pose within_;                // the last pose looked at
+  float into_clip_, meet_by_;  // s
   int steps_of_blow_;
   bool protecting_ = false, gathering_ = false;
   bool astray_ = false;     // far from every lying pose

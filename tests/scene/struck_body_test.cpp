@@ -82,5 +82,27 @@ TEST(StruckBodies, GoTheWayOfTheBlowWhereverTheyWereGoing) {
   }
 }
 
+// Where the simulation passes to the clip, at 60 Hz: a leg in full swing neither stops nor sets out
+// for its place in a frame.
+TEST(StruckBodies, ThatWereKickingLetTheLegSlowDown) {
+  const std::vector<StruckCase> cases{
+      {"roundhouse_rear_high", .422, Part::abdomen, {-8.343f, 0, -24.300f}, .871f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    const auto frames = frames_from_hit(answer);
+    const auto at = [&](Tick t) {
+      return world_pose(answer.bodies.front().skeleton, frames[static_cast<std::size_t>(t)]);
+    };
+    for (Tick t = 19; t < 60; ++t) {
+      const WorldPose before = at(t - 4), between = at(t - 2), now = at(t);
+      for (const Side side : {Side::left, Side::right}) {
+        const std::size_t j = index(toes(side));
+        const Vec3 change = now.position[j] - 2.0f * between.position[j] + before.position[j];
+        EXPECT_LT(glm::length(change) * 60, 1.5f) << c.action << " " << t;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ringcraft
