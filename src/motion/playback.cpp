@@ -29,6 +29,8 @@ constexpr float kStill = 0.5f;            // m/s: nor does it move faster
 constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
+constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster than that, and
+constexpr float kSlowsAt = 16;            // 1/s: times its height over it, after a simulation
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongest = 0.9995f;       // of a limb's length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;       // of the arm's length: beyond it a blended reach is eased
@@ -458,6 +460,11 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_bal
       break;
   }
   foot.rise_age += kTickSeconds;
+  // A foot that a simulation threw slows before it meets the floor.
+  if (after_simulation_ && foot.mode != Mode::held) {
+    const float most = kMeetsFloor + kSlowsAt * std::max(0.0f, foot.ball.y - floor);
+    ball.y = std::max(ball.y, foot.ball.y - most * kTickSeconds);
+  }
   // Never under the floor; one that a simulation left there comes up as its offset decays.
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
   foot.led_before = started_ ? foot.led : ball;
