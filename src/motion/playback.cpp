@@ -273,8 +273,8 @@ void Playback::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
 
 // The foot stands where it is from this tick on, and presses down.
 void Playback::stand(Foot& foot, float floor) const {
-  const Vec3 moved = foot.led - foot.led_before;
-  const Vec3 carried = foot.led + moved;
+  const Vec3 moved = foot.by_joints ? foot.ball - foot.ball_before : foot.led - foot.led_before;
+  const Vec3 carried = (foot.by_joints ? foot.ball : foot.led) + moved;
   foot.mode = Mode::held;
   foot.place = on_ground(carried);
   foot.offset = {kUp * (carried.y - floor), kUp * (moved.y / kTickSeconds), settings_.land_seconds};
@@ -365,8 +365,9 @@ void Playback::Sink::follow(float needed) {
 void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
   const Foot& other_foot = feet_[static_cast<std::size_t>(other(side))];
-  const Vec3 moved = foot.led - foot.led_before;
-  const Vec3 carried = foot.led + moved;  // where it would be shown if nothing changed
+  // Where it would be shown if nothing changed; what went by joints was kept inside their ranges.
+  const Vec3 moved = foot.by_joints ? foot.ball - foot.ball_before : foot.led - foot.led_before;
+  const Vec3 carried = (foot.by_joints ? foot.ball : foot.led) + moved;
   const Vec3 clip_velocity = (clip_ball - foot.clip_ball) / kTickSeconds;
   const Vec3 velocity = moved / kTickSeconds;
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
@@ -430,11 +431,20 @@ float Playback::Lift::of(float height, float clip_height, float begun) {
   return lift(height) - at_first * begun - lift(clip_height) * (1 - begun);
 }
 
+// Height of the ball of a foot that stands, turned as it is going to be shown.
+float Playback::floor_of_shown(Side side) const {
+  const std::size_t end = index(leg(side).end);
+  const Quat before = world_pose(skeleton_, before_).rotation[end],
+             shown = world_pose(skeleton_, shown_).rotation[end];
+  return ball_floor(skeleton_, glm::normalize(shown * glm::inverse(before) * shown));
+}
+
 // Where the ball of the foot goes in this tick.
 Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor) {
   Foot& foot = feet_[static_cast<std::size_t>(side)];
+  const float stands_at = foot.by_joints ? floor_of_shown(side) : floor;
   if (started_) {
-    change_mode(side, planted, clip_ball, floor);
+    change_mode(side, planted, clip_ball, stands_at);
   } else {
     foot.mode = planted ? Mode::held : Mode::swing;
     foot.place = on_ground(clip_ball);
@@ -452,10 +462,10 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_bal
       }
       break;
     case Mode::held:
-      ball += foot.place + kUp * floor;
+      ball += foot.place + kUp * stands_at;
       break;
     case Mode::step:
-      ball += on_ground(clip_ball) + kUp * floor;
+      ball += on_ground(clip_ball) + kUp * stands_at;
       since_step_ = 0;
       break;
   }

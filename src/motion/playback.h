@@ -97,6 +97,7 @@ class Playback {
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Side side, Quat clip_turn);
+  float floor_of_shown(Side side) const;
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
   bool arm_by_joints(Side side, const Pose& now) const;
   void stitch_hinge(const Limb& limb, const Pose& now, const Pose& after);

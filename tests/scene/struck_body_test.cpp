@@ -89,7 +89,8 @@ TEST(StruckBodies, PassToTheirClipWithoutAPop) {
       {"roundhouse_rear_high", .422, Part::abdomen, {-8.343f, 0, -24.300f}, .871f},
       {"guard_2", .096, Part::left_upper_arm, {61.877f, 0, 30.140f}, .726f},
       {"duck", .096, Part::left_upper_arm, {-40.180f, 0, 6.492f}, .938f},
-      {"check_kick_lead", .306, Part::chest, {-32.629f, 0, 25.656f}, .987f}};
+      {"check_kick_lead", .306, Part::chest, {-32.629f, 0, 25.656f}, .987f},
+      {"knee_rear", .398, Part::left_upper_arm, {-11.354f, 0, 16.664f}, .645f}};
   for (const StruckCase& c : cases) {
     const HitAnswer answer = answer_to_case(c);
     const auto frames = frames_from_hit(answer);
