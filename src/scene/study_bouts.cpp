@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -19,19 +18,13 @@ namespace {
 constexpr float kNearestStart = 1.6f, kFarthestStart = 3.0f;  // m
 constexpr float kMostTurned = radians(29);
 
-// The action that a fighter chose most, and its share.
-std::pair<double, std::string> most_used(const FighterTrack& track) {
-  std::map<std::string, int> uses;
-  int all = 0, most = 0;
-  std::string action;
-  for (const Segment& segment : track.segments) {
-    if (segment.launch.forced) continue;
-    ++all;
-    if (++uses[segment.name] <= most) continue;
-    most = uses[segment.name];
-    action = segment.name;
-  }
-  return {all == 0 ? 0 : static_cast<double>(most) / all, action};
+// The action that was chosen most, and its share; of equals the first by name.
+std::pair<double, std::string> most_used(const SideTally& side) {
+  const auto most =
+      std::max_element(side.uses.begin(), side.uses.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == side.uses.end()) return {};
+  return {static_cast<double>(most->second) / static_cast<double>(side.chosen), most->first};
 }
 
 // Whether a defense was chosen while the feint lasted.
@@ -54,9 +47,11 @@ void count_segments(const Timeline& timeline, BoutTally& tally) {
       own.steps += segment.kind == Kind::transition && !segment.feint ? 1 : 0;
       own.feints += segment.feint ? 1 : 0;
       own.taken_in += segment.feint && took_in(segment, timeline.tracks[1 - i]) ? 1 : 0;
-      own.chosen += segment.launch.forced ? 0 : 1;
+      if (segment.launch.forced) continue;
+      ++own.chosen;
+      ++own.uses[segment.name];
     }
-    const auto [share, action] = most_used(timeline.tracks[i]);
+    const auto [share, action] = most_used(own);
     if (share <= tally.most_used) continue;
     tally.most_used = share;
     tally.most_used_action = action;
@@ -138,6 +133,9 @@ std::vector<StudyCell> row_of(const std::string& name, const Totals& sum) {
     row.emplace_back(over(side.ahead_s, static_cast<double>(side.decisions)));
     row.emplace_back(over(static_cast<double>(side.feints), minutes));
     row.emplace_back(over(static_cast<double>(side.taken_in), static_cast<double>(side.feints)));
+    const auto [share, action] = most_used(side);
+    row.emplace_back(share);
+    row.emplace_back(action);
   }
   row.emplace_back(over(sum.distance, sum.ticks));
   row.emplace_back(over(sum.far, sum.ticks));
@@ -160,6 +158,7 @@ SideTally& SideTally::operator+=(const SideTally& o) {
   attacks += o.attacks, strikes += o.strikes, hits += o.hits, defenses += o.defenses;
   steps += o.steps, faced += o.faced, knockdowns += o.knockdowns, chosen += o.chosen;
   damage += o.damage;
+  for (const auto& [action, count] : o.uses) uses[action] += count;
   decisions += o.decisions, ahead_s += o.ahead_s;
   feints += o.feints, taken_in += o.taken_in;
   return *this;
@@ -290,9 +289,10 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
                          "win_share",   "win_low",  "win_high", "draw_share",
                          "lead_points", "lead_low", "lead_high"};
   for (const char* side : {"a", "b"}) {
-    for (const char* what : {"hits_per_min", "damage_per_min", "landed_share", "knockdowns_per_min",
-                             "steps_per_min", "defenses_per_attack_faced", "looked_ahead_s",
-                             "feints_per_min", "feints_answered_share"}) {
+    for (const char* what :
+         {"hits_per_min", "damage_per_min", "landed_share", "knockdowns_per_min", "steps_per_min",
+          "defenses_per_attack_faced", "looked_ahead_s", "feints_per_min", "feints_answered_share",
+          "most_used_share", "most_used_action"}) {
       study.table.columns.push_back(fmt::format("{}_{}", side, what));
     }
   }

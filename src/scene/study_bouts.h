@@ -3,6 +3,7 @@
 // swapped, counted and with confidence intervals.
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct Pairing {
 // What one side did in a bout, or in all bouts of a pairing.
 struct SideTally {
   std::int64_t attacks = 0, strikes = 0, hits = 0, defenses = 0, steps = 0, faced = 0;
-  std::int64_t knockdowns = 0;  // that it made
-  std::int64_t chosen = 0;      // actions it chose
+  std::int64_t knockdowns = 0;               // that it made
+  std::int64_t chosen = 0;                   // actions it chose
+  std::map<std::string, std::int64_t> uses;  // of these, how often each
   std::int64_t feints = 0;
   std::int64_t taken_in = 0;  // feints that the other answered with a defense before their end
   double damage = 0;          // that it did, points

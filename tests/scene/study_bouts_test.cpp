@@ -136,6 +136,44 @@ TEST_F(StudyBoutsTest, TableSaysLeadDrawsQuietAndTheMostUsedAction) {
   EXPECT_EQ(std::get<std::int64_t>(cell("bouts_without_contact")), 5);
 }
 
+TEST_F(StudyBoutsTest, MostUsedActionOfASideIsCountedOverAllBoutsOfItsPairing) {
+  // Of three launches of a bout that ends soon a third is the least that one action can have.
+  const auto bout_of = [](const std::vector<std::string>& first,
+                          const std::vector<std::string>& second) {
+    FightRecord record;
+    record.timeline.tracks.resize(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (const std::string& name : i == 0 ? first : second) {
+        Segment segment;
+        segment.name = name;
+        record.timeline.tracks[i].segments.push_back(segment);
+      }
+    }
+    record.timeline.tracks[0].segments.emplace_back().name = "absorb";
+    record.timeline.tracks[0].segments.back().launch.forced = true;
+    return tally_of(record);
+  };
+  PairingResult result;
+  result.pairing = pairing();
+  result.bouts.push_back(bout_of({"jab", "jab", "step"}, {"slip"}));
+  result.bouts.push_back(bout_of({"cross", "hook", "kick", "knee", "jab"}, {"slip", "parry"}));
+  Study study;
+  fill_bouts(study, {result});
+  const auto cell = [&](const std::string& column) {
+    const auto& columns = study.table.columns;
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    EXPECT_NE(at, columns.end()) << column;
+    return study.table.rows.front()[static_cast<std::size_t>(at - columns.begin())];
+  };
+  ASSERT_EQ(study.table.columns.size(), study.table.rows.front().size());
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("a_most_used_share")), 3.0 / 8);
+  EXPECT_EQ(std::get<std::string>(cell("a_most_used_action")), "jab");
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("b_most_used_share")), 2.0 / 3);
+  EXPECT_EQ(std::get<std::string>(cell("b_most_used_action")), "slip");
+  EXPECT_DOUBLE_EQ(std::get<double>(cell("most_used_share")), 1);  // the worst bout's
+  EXPECT_EQ(std::get<std::string>(cell("most_used_action")), "slip");
+}
+
 TEST_F(StudyBoutsTest, NearlyEqualDamageIsADraw) {
   FightRecord record;
   record.timeline.end = 1200;
