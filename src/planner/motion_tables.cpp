@@ -430,6 +430,29 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
   return strike_contact(striker, strike.strike, struck, near);
 }
 
+namespace {
+
+// Whether bodies in these boxes, that of a as `seen` from b, are on no axis of either box farther
+// into each other than `least`: no two parts of them can be then.
+bool boxes_apart(const Frame& seen, const Box& box_a, const Box& box_b, float least) {
+  constexpr float kRounding = 1e-4f;  // m
+  const Vec3 half_a = (box_a.high - box_a.low) * 0.5f, half_b = (box_b.high - box_b.low) * 0.5f;
+  const Vec3 apart =
+      seen.to_outer((box_a.low + box_a.high) * 0.5f) - (box_b.low + box_b.high) * 0.5f;
+  const float sine = std::abs(seen.sine), cosine = std::abs(seen.cosine);
+  const auto separates = [&](float distance, float own, float half_x, float half_z) {
+    return own + half_x + half_z - std::abs(distance) < least - kRounding;
+  };
+  return separates(apart.x, half_b.x, cosine * half_a.x, sine * half_a.z) ||
+         separates(apart.z, half_b.z, sine * half_a.x, cosine * half_a.z) ||
+         separates(seen.cosine * apart.x - seen.sine * apart.z, half_a.x, cosine * half_b.x,
+                   sine * half_b.z) ||
+         separates(seen.sine * apart.x + seen.cosine * apart.z, half_a.z, sine * half_b.x,
+                   cosine * half_b.z);
+}
+
+}  // namespace
+
 float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least) {
   const Tick age_a = a.age(tick), age_b = b.age(tick);
   const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
@@ -440,6 +463,7 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   };
   const Sphere& bound_a = a.table->bound_at(age_a);
   if (!near({seen.to_outer(bound_a.center), bound_a.radius}, bound_b)) return 0;
+  if (boxes_apart(seen, a.table->box_at(age_a), b.table->box_at(age_b), least)) return 0;
   const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
   // The parts of each that touch the box around the other's.
   struct Near {
