@@ -78,6 +78,7 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
         if (way == Vec3{}) continue;
         clear = false;
         offset = shortened(offset + way, kMostKeptOut[m]);
+        offset = now[m] + shortened(offset - now[m], kGoingOut * kTickSeconds);
         moved = pose;
         move_end(body, m, offset, moved);
       }

@@ -20,8 +20,10 @@ inline constexpr std::array<float, 4> kMostKeptOut = {0.20f, 0.20f, 0.35f, 0.35f
 
 // One tick on from `now`: limbs come back to their motion, no faster than kComingFree, as far as
 // hands, forearms, and feet and shins that are not `held`, stay out of the `others`, each limb held
-// off by at most its kMostKeptOut. On the side on which it is: none passes through another.
+// off by at most its kMostKeptOut and going there no faster than kGoingOut. On the side on which it
+// is: none passes through another.
 inline constexpr float kComingFree = 1.5f;  // m/s
+inline constexpr float kGoingOut = 12.0f;   // m/s
 LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others, const LimbOffsets& now);
 

@@ -56,6 +56,22 @@ TEST_F(KeepOut, AGloveIsPushedAlongAndNotPassedThrough) {
   EXPECT_GT(kept_out(body, pose, {true, true}, others, {})[0].z, 0);
 }
 
+// A thick bar is suddenly where the glove is: its way out takes more than a tick.
+TEST_F(KeepOut, AGloveIsThrownOutNoFasterThanItMay) {
+  std::array<BodyCapsules, 1> others{bar(0)};
+  others[0][0].radius = .1f;
+  LimbOffsets offsets{};
+  Tick ticks = 0;
+  while (depth(offsets, others[0]) > .01f && ticks < 12) {
+    const Vec3 before = offsets[0];
+    offsets = kept_out(body, pose, {true, true}, others, offsets);
+    EXPECT_LE(glm::distance(before, offsets[0]), kGoingOut * kTickSeconds + 1e-5f);
+    ++ticks;
+  }
+  EXPECT_GT(ticks, 1);
+  EXPECT_LT(ticks, 5);
+}
+
 TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
   LimbOffsets offsets{};
   offsets[0] = {0, 0, -.05f};
