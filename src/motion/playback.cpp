@@ -281,6 +281,13 @@ void Playback::stand(Foot& foot, float floor) const {
   foot.rise = 0;
 }
 
+void Playback::stand_aside(Side side, Vec3 offset) {
+  Foot& foot = feet_[static_cast<std::size_t>(side)];
+  foot.place += offset;
+  foot.led += offset;
+  foot.led_before += offset;
+}
+
 const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   Pose pose = clip_pose;
   pose.hips += hips_.value();

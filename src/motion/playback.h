@@ -44,6 +44,14 @@ class Playback {
   // Replaces the pose just shown, where something outside (another body) stood in its way.
   void amend(const Pose& pose);
 
+  // A foot that has been set down and still presses down stands `offset`, m on the ground, off
+  // where it was led: something outside stood there. It goes on from where it is shown.
+  void stand_aside(Side side, Vec3 offset);
+  bool presses_down(Side side) const {
+    const Foot& foot = feet_[static_cast<std::size_t>(side)];
+    return foot.mode == Mode::held && !foot.offset.done();
+  }
+
   const Pose& shown() const { return shown_; }          // last shown
   const Pose& shown_before() const { return before_; }  // one tick earlier
   // Feet that stand still on the ground; not those that still press down or step on their own.

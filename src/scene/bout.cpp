@@ -32,6 +32,7 @@ constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each
 constexpr float kFallingSpeed = 1.0f;    // m/s: slower, a falling body leans on another
 constexpr float kMostErrors = 2.5f;      // standard deviations of an error of execution
 constexpr float kMostPush = 0.012f;      // m a tick and fighter
+constexpr float kLyingHips = 0.5f;  // m, of a canonical body: hips of one that falls are higher
 
 std::vector<BodyModel> bodies_of(const SceneFile& scene) {
   std::vector<BodyModel> bodies;
@@ -492,9 +493,32 @@ void Bout::note_foreseen(Event& event) {
   if (early != nullptr && early->response == event.response) ++record_.counts.agreed_at_launch;
 }
 
+void Bout::shift(FighterId id, Vec3 offset) {
+  stage_.shift(id, offset);
+  fighter(id).launch.placement = stage_.launch(id).placement;
+}
+
+// A body comes after a foot of its own that had to stand beside another one.
+void Bout::follow_feet(FighterId id) {
+  Vec3& left = standing_[id.at()].aside;
+  left += stage_.taken_aside(id);
+  const float far = glm::length(left);
+  if (far == 0) return;
+  const Vec3 step = left * std::min(1.0f, kMostPush / far);
+  left -= step;
+  shift(id, step);
+}
+
+// Who stands, and who is on the way down; not who lies or gets up.
+bool Bout::gives_way(FighterId id) const {
+  if (!state_.fighters[id.at()].down()) return true;
+  return stage_.simulated(id) && stage_.shown(id).hips.y > kLyingHips * stage_.body(id).scale;
+}
+
 // Bodies that press into each other give way on the ground, each by half, or the one that can by
 // all; a strike's own contact is left to its impulse.
 void Bout::push_apart() {
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) follow_feet(FighterId(i));
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     for (std::size_t j = i + 1; j < state_.fighters.size(); ++j) {
       const FighterId a(i), b(j);
@@ -507,15 +531,11 @@ void Bout::push_apart() {
                                                       excepted(a), excepted(b));
       if (deepest.depth <= kTouchingDepth) continue;
       const Vec3 apart = normalized_or(ground_position(b) - ground_position(a), kForward);
-      const auto gives_way = [&](FighterId id) {
-        return !stage_.simulated(id) && !fighter(id).down();
-      };
       const float shares = (gives_way(a) ? 1.0f : 0.0f) + (gives_way(b) ? 1.0f : 0.0f);
       for (const auto& [id, sign] : {std::pair{a, -1.0f}, std::pair{b, 1.0f}}) {
         if (!gives_way(id)) continue;
         const float push = std::min(kMostPush, (deepest.depth - kTouchingDepth) / shares);
-        stage_.shift(id, apart * (push * sign));
-        fighter(id).launch.placement = stage_.launch(id).placement;
+        shift(id, apart * (push * sign));
       }
     }
   }

@@ -47,6 +47,7 @@ class Bout {
     bool out = false;
     std::uint32_t fell_upon = 0;  // bit i: this fall has hit fighter i
     Condition condition;          // fatigue and injuries
+    Vec3 aside{};                 // m: how far its body is still to follow feet that stood aside
   };
 
   FighterState& fighter(FighterId id) { return state_.fighters[id.at()]; }
@@ -68,6 +69,9 @@ class Bout {
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
   void let_off(FighterId fallen);
   void push_apart();
+  void follow_feet(FighterId id);
+  bool gives_way(FighterId id) const;
+  void shift(FighterId id, Vec3 offset);
   bool strikes_now() const;
   void foresee();
   void note_foreseen(Event& event);

@@ -156,6 +156,7 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
   actor.launch.placement.x += offset.x;
   actor.launch.placement.z += offset.z;
   actor.rest.hips += Vec3{offset.x, 0, offset.z};
+  for (Pose& pose : actor.simulated) pose.hips += Vec3{offset.x, 0, offset.z};
   actor.track.segments.back().launch.placement = actor.launch.placement;
 }
 
@@ -236,9 +237,27 @@ void Stage::keep_out_and_record() {
     }
     amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
                           actor.kept_out));
+    set_feet_aside(actor);
     actor.track.frames.push_back(actor.motion.playback.shown());
     actor.track.contacts.push_back(actor.motion.playback.held());
   }
+}
+
+// A foot that comes down where another body is stands beside it, and does not slide into it once it
+// carries.
+void Stage::set_feet_aside(Actor& actor) {
+  for (const Side side : {Side::left, Side::right}) {
+    Vec3& offset = actor.kept_out[2 + static_cast<std::size_t>(side)];
+    if (!actor.motion.playback.presses_down(side) || offset == Vec3{}) continue;
+    const Vec3 aside{offset.x, 0, offset.z};
+    actor.motion.playback.stand_aside(side, aside);
+    actor.aside += aside;
+    offset -= aside;
+  }
+}
+
+Vec3 Stage::taken_aside(FighterId fighter) {
+  return std::exchange(actors_[fighter.at()].aside, {});
 }
 
 const Pose& Stage::shown_before(FighterId fighter) const {

@@ -41,8 +41,13 @@ class Stage {
   // The limb that met something with a blow in this tick stops there, in this tick already.
   void land(FighterId fighter, const Contact& contact);
 
-  // Moves a fighter's launch on the ground; the feet follow by steps of their own.
+  // Moves a fighter's launch on the ground; the feet follow by steps of their own. What is still to
+  // come of a simulation goes along.
   void shift(FighterId fighter, Vec3 offset);
+
+  // Where feet that were set down beside another body have gone, on the ground, since the last
+  // call: what the fighter's body is to follow.
+  Vec3 taken_aside(FighterId fighter);
 
   // Shows one tick of every fighter: poses and capsules, as if nothing stood in their way.
   void show(Tick tick);
@@ -99,6 +104,7 @@ class Stage {
     std::array<float, 2> swings{};  // 0 the foot carries .. 1: its leg swings
     LimitExcesses free_more{};      // of that, what the last seam left
     LimbOffsets kept_out{};         // what keeps its limbs out of the other bodies
+    Vec3 aside{};                   // taken_aside()
     SweptBody swept{};
     FighterTrack track{};
   };
@@ -108,6 +114,7 @@ class Stage {
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
+  static void set_feet_aside(Actor& actor);
   Pose clip_pose(const Actor& actor, Tick tick) const;
   static Tick clip_age(const Actor& actor, Tick tick);
 

@@ -77,5 +77,62 @@ TEST_F(StageTest, AMotionInFlightHasItsSimulatedPosesAndTheWayOutOfThem) {
   }
 }
 
+TEST_F(StageTest, WhatIsLeftOfASimulationGoesWhereItsBodyIsPushed) {
+  Stage stage(default_library(), {make_body({})});
+  const FighterId self(0);
+  stage.begin(self, launch("guard_1", 0, {}));
+  for (Tick t = 0; t <= 30; ++t) show(stage, t);
+  const Pose still = stage.shown(self);
+  stage.begin(self, launch("recover_back_1", 30, {}), std::vector<Pose>(20, still));
+  for (Tick t = 31; t <= 40; ++t) {
+    show(stage, t);
+    stage.shift(self, {.01f, 0, -.005f});
+  }
+  EXPECT_NEAR(stage.shown(self).hips.x, still.hips.x + .09f, 1e-4f);
+  EXPECT_NEAR(stage.shown(self).hips.z, still.hips.z - .045f, 1e-4f);
+  EXPECT_FLOAT_EQ(stage.shown(self).hips.y, still.hips.y);
+}
+
+// A step that ends on the other's foot: what held the foot off in the air must not let it slide
+// back once it carries.
+TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
+  const FighterId self(0), other(1);
+  const auto step_from = [&](Stage& stage) {
+    stage.begin(self, launch("step_forward_left_long", 0, {}));
+  };
+  const auto toes_of = [](const Stage& stage, FighterId who, Side side) {
+    const WorldPose world = world_pose(stage.body(who).skeleton, stage.shown(who));
+    return world.position[index(toes(side))];
+  };
+  constexpr Tick kSteps = 90;
+  Stage alone(default_library(), {make_body({})}), stands(default_library(), {make_body({})});
+  step_from(alone);
+  for (Tick t = 0; t < kSteps; ++t) show(alone, t);
+  stands.begin(self, launch("guard_1", 0, {0, 0, kPi}));
+  show(stands, 0);
+  const Vec3 from = toes_of(stands, self, Side::left), to = toes_of(alone, self, Side::left);
+  int aside = 0;
+  for (int i = 0; i < 9; ++i) {
+    const Vec3 off = .05f * Vec3{static_cast<float>(i % 3 - 1), 0, static_cast<float>(i / 3)};
+    Stage stage(default_library(), {make_body({}), make_body({})});
+    step_from(stage);
+    stage.begin(other, launch("guard_1", 0, {to.x - from.x + off.x, to.z - from.z + off.z, kPi}));
+    Vec3 last{}, gone{};
+    bool carried = false;
+    for (Tick t = 0; t < kSteps; ++t) {
+      show(stage, t);
+      const Vec3 at = toes_of(stage, self, Side::left);
+      if (stage.held(self).left && carried) {
+        EXPECT_LT(std::hypot(at.x - last.x, at.z - last.z) / kTickSeconds, .5f) << i << ", " << t;
+      }
+      last = at;
+      carried = stage.held(self).left;
+      gone += stage.taken_aside(self);
+    }
+    aside += glm::length(gone) > .01f ? 1 : 0;
+  }
+  EXPECT_GE(aside, 3);
+}
+
 }  // namespace
 }  // namespace ringcraft
