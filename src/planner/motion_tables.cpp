@@ -432,16 +432,17 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
 
 namespace {
 
+constexpr float kBoxRounding = 1e-4f;  // m
+
 // Whether bodies in these boxes, that of a as `seen` from b, are on no axis of either box farther
 // into each other than `least`: no two parts of them can be then.
 bool boxes_apart(const Frame& seen, const Box& box_a, const Box& box_b, float least) {
-  constexpr float kRounding = 1e-4f;  // m
   const Vec3 half_a = (box_a.high - box_a.low) * 0.5f, half_b = (box_b.high - box_b.low) * 0.5f;
   const Vec3 apart =
       seen.to_outer((box_a.low + box_a.high) * 0.5f) - (box_b.low + box_b.high) * 0.5f;
   const float sine = std::abs(seen.sine), cosine = std::abs(seen.cosine);
   const auto separates = [&](float distance, float own, float half_x, float half_z) {
-    return own + half_x + half_z - std::abs(distance) < least - kRounding;
+    return own + half_x + half_z - std::abs(distance) < least - kBoxRounding;
   };
   return separates(apart.x, half_b.x, cosine * half_a.x, sine * half_a.z) ||
          separates(apart.z, half_b.z, sine * half_a.x, cosine * half_a.z) ||
@@ -465,47 +466,52 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   if (!near({seen.to_outer(bound_a.center), bound_a.radius}, bound_b)) return 0;
   if (boxes_apart(seen, a.table->box_at(age_a), b.table->box_at(age_b), least)) return 0;
   const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
-  // The parts of each that touch the box around the other's.
-  struct Near {
-    Sphere sphere;
-    std::size_t part = 0;
-  };
-  std::array<Near, kPartCount> own, their;
+  // The parts of each that are farther than `least` in the box around the other's. A part is no
+  // deeper in another than the sphere around it is in a box around that one.
+  std::array<Vec3, kPartCount> centers;  // of a's, seen from b
+  std::array<std::uint8_t, kPartCount> own, their;
   std::size_t own_count = 0, their_count = 0;
-  const auto touches_box = [](const Sphere& one, const Box& box) {
-    const Vec3 nearest = glm::clamp(one.center, box.low, box.high);
-    return glm::distance2(one.center, nearest) <= one.radius * one.radius;
+  const float slack = std::max(0.0f, least - kBoxRounding);
+  const auto touches_box = [slack](Vec3 center, float radius, const Box& box) {
+    const float reach = radius - slack;
+    const Vec3 nearest = glm::clamp(center, box.low, box.high);
+    return reach > 0 && glm::distance2(center, nearest) <= reach * reach;
   };
   const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
   Box reached{Vec3(1e9f), Vec3(-1e9f)};
   const Box& box_b = b.table->box_at(age_b);
   const auto &groups_a = a.table->groups_at(age_a), &groups_b = b.table->groups_at(age_b);
   for (std::size_t g = 0; g < kGroups; ++g) {
-    if (!touches_box({seen.to_outer(groups_a[g].center), groups_a[g].radius}, box_b)) continue;
+    if (!touches_box(seen.to_outer(groups_a[g].center), groups_a[g].radius, box_b)) continue;
     for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
-      const Sphere sphere{seen.to_outer(spheres_a[i].center), spheres_a[i].radius};
-      if (((excepted_a >> i) & 1u) != 0 || !touches_box(sphere, box_b)) continue;
-      own[own_count++] = {sphere, i};
-      reached.low = glm::min(reached.low, sphere.center - sphere.radius);
-      reached.high = glm::max(reached.high, sphere.center + sphere.radius);
+      const float radius = spheres_a[i].radius;
+      const Vec3 center = seen.to_outer(spheres_a[i].center);
+      if (((excepted_a >> i) & 1u) != 0 || !touches_box(center, radius, box_b)) continue;
+      centers[i] = center;
+      own[own_count++] = static_cast<std::uint8_t>(i);
+      reached.low = glm::min(reached.low, center - radius);
+      reached.high = glm::max(reached.high, center + radius);
     }
   }
   if (own_count == 0) return 0;
   for (std::size_t g = 0; g < kGroups; ++g) {
-    if (!touches_box(groups_b[g], reached)) continue;
+    if (!touches_box(groups_b[g].center, groups_b[g].radius, reached)) continue;
     for (std::size_t j = kGroupBegin[g]; j < kGroupBegin[g + 1]; ++j) {
-      if (((excepted_b >> j) & 1u) != 0 || !touches_box(spheres_b[j], reached)) continue;
-      their[their_count++] = {spheres_b[j], j};
+      if (((excepted_b >> j) & 1u) != 0) continue;
+      if (!touches_box(spheres_b[j].center, spheres_b[j].radius, reached)) continue;
+      their[their_count++] = static_cast<std::uint8_t>(j);
     }
   }
   const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
   const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
   float deepest = 0;
-  for (std::size_t i = 0; i < own_count; ++i) {
-    const Capsule& mine = capsules_a[own[i].part];
-    for (std::size_t j = 0; j < their_count; ++j) {
-      if (!near(own[i].sphere, their[j].sphere)) continue;
-      const Capsule& other = capsules_b[their[j].part];
+  for (std::size_t n = 0; n < own_count; ++n) {
+    const std::size_t i = own[n];
+    const Capsule& mine = capsules_a[i];
+    const Sphere sphere{centers[i], spheres_a[i].radius};
+    for (std::size_t m = 0; m < their_count; ++m) {
+      if (!near(sphere, spheres_b[their[m]])) continue;
+      const Capsule& other = capsules_b[their[m]];
       const float distance =
           segment_distance(seen.to_outer(mine.a), seen.to_outer(mine.b), other.a, other.b).distance;
       deepest = std::max(deepest, mine.radius + other.radius - distance);
