@@ -6,6 +6,7 @@
 #include "motion/ik.h"
 #include "motion/joint_turns.h"
 #include "physics/braking.h"
+#include "physics/flung_limbs.h"
 #include "physics/impact_frame.h"
 #include "physics/response.h"
 #include "physics/standing_feet.h"
@@ -19,10 +20,6 @@ constexpr float kIntoClip = .20f;    // s over which the aim goes from the cut a
 constexpr float kMeetBy = .45f;      // s: by then the simulated motion has met the clip
 constexpr float kMeetFrom = .12f;    // s: from here on hips and legs do; sooner they would slide
 constexpr float kArmsMeetBy = .30f;  // s: as light as they are, they swing fastest
-constexpr float kMostLimbSpin = 60;  // rad/s: as fast as limbs are shown
-constexpr float kCaught = 7;         // rad/s: as fast as arms turn that were flung and caught
-constexpr float kFlung = .03f;       // s: until then struck arms fly as they do
-constexpr float kCaughtBy = .10f;    // s: by then
 constexpr float kProtect = .10f;     // s: from here on a falling body protects itself
 constexpr float kLimpTone = .03f;    // of a knocked-out body; 0 looks like a sack
 constexpr float kLyingTone = .08f;
@@ -300,8 +297,8 @@ class Shown {
         mend_(body, frame_.pose()),
         feet_(body, frame_),
         braking_(body, frame_),
+        limbs_(frame_),
         within_(frame_.pose()),
-        slowed_(frame_.pose()),
         into_clip_(seconds_to_clip(kIntoClip, 50)),
         meet_by_(kMeetFrom + seconds_to_clip(kMeetBy - kMeetFrom, 20)),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
@@ -407,34 +404,10 @@ class Shown {
       met.rotation[j] = mix_root(side, arm(side), pose.rotation[j], clip(tick).rotation[j],
                                  glm::smoothstep(0.0f, kArmsMeetBy, now));
     }
-    slow_limbs(now, met);
+    limbs_.slow(now, met);
     Pose mended = mend_(met);
     feet_.hold(mended);
     return frame_.out(mended);
-  }
-
-  // Limbs that were flung, and a leg that kicks, are caught: what still flew where the clip takes
-  // over would have to stop or turn round in a frame.
-  void slow_limbs(float now, Pose& pose) {
-    const float most =
-        glm::mix(kMostLimbSpin, kCaught, glm::smoothstep(kFlung, kCaughtBy, now)) * kTickSeconds;
-    const auto slow = [&](Side side, const Limb& limb) {
-      for (const Joint joint : {limb.root, limb.middle}) {
-        const std::size_t j = index(joint);
-        const Quat last = slowed_.rotation[j];
-        const float turn = glm::length(rotation_vector(pose.rotation[j] * glm::conjugate(last)));
-        if (turn <= most) continue;
-        pose.rotation[j] = joint == limb.root
-                               ? mix_root(side, limb, last, pose.rotation[j], most / turn)
-                               : glm::normalize(glm::slerp(
-                                     last, in_hemisphere_of(pose.rotation[j], last), most / turn));
-      }
-    };
-    for (const Side side : {Side::left, Side::right}) {
-      slow(side, arm(side));
-      if (!frame_.contacts().of(side)) slow(side, leg(side));
-    }
-    slowed_ = pose;
   }
 
   Tone fall_tone(float now) const {
@@ -523,9 +496,9 @@ class Shown {
   Mender mend_;
   StandingFeet feet_;
   Braking braking_;
+  FlungLimbs limbs_;
   bool stopped_ = false;       // some joint is being driven back
   Pose within_;                // the last pose looked at
-  Pose slowed_;                // of the tick before, with its limbs as they were slowed
   float into_clip_, meet_by_;  // s
   int steps_of_blow_;
   bool protecting_ = false, gathering_ = false;

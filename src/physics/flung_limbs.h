@@ -1,0 +1,22 @@
+#pragma once
+// Limbs that were flung, and a leg that kicks, are caught: what still flew where the clip takes
+// over would have to stop or turn round in a frame.
+
+#include "physics/impact_frame.h"
+
+namespace ringcraft {
+
+class FlungLimbs {
+ public:
+  explicit FlungLimbs(const ImpactFrame& frame);
+
+  // Lets the arms, and the legs that did not stand when the blow landed, turn no faster in the next
+  // pose, one tick later and `seconds` after the blow, than limbs that are being caught do.
+  void slow(float seconds, Pose& pose);
+
+ private:
+  FootContacts stood_;
+  Pose last_;
+};
+
+}  // namespace ringcraft
