@@ -27,11 +27,11 @@ double microseconds_since(Clock::time_point begin) {
 constexpr Tick kOpeningTicks = 24;        // in guard before the first decision
 constexpr float kIdleTurn = radians(15);  // toward the opponent, in one idle
 constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
-constexpr Tick kForeseenTicks = 6;       // a contact so far from when it was foreseen is another
-constexpr float kTouchingDepth = 0.01f;  // m: bodies deeper than this push each other apart
-constexpr float kFallingSpeed = 1.0f;    // m/s: slower, a falling body leans on another
-constexpr float kMostErrors = 2.5f;      // standard deviations of an error of execution
-constexpr float kMostPush = 0.012f;      // m a tick and fighter
+constexpr Tick kForeseenTicks = 6;        // a contact so far from when it was foreseen is another
+constexpr float kTouchingDepth = 0.006f;  // m: bodies deeper than this push each other apart
+constexpr float kFallingSpeed = 1.0f;     // m/s: slower, a falling body leans on another
+constexpr float kMostErrors = 2.5f;       // standard deviations of an error of execution
+constexpr float kMostPush = 0.012f;       // m a tick and fighter
 constexpr float kLyingHips = 0.5f;  // m, of a canonical body: hips of one that falls are higher
 
 std::vector<BodyModel> bodies_of(const SceneFile& scene) {
