@@ -11,7 +11,7 @@ Muscle muscle_of(const BodyModel& body, Part child) {
     case Part::pelvis:
       return {};
     case Part::abdomen:
-      return scaled_by_mass(250, 1000);
+      return scaled_by_mass(260, 1000);
     case Part::chest:
       return scaled_by_mass(220, 1000);
     case Part::neck:
@@ -29,6 +29,7 @@ Muscle muscle_of(const BodyModel& body, Part child) {
       return scaled_by_mass(15, 40);
     case Part::left_thigh:
     case Part::right_thigh:
+      return scaled_by_mass(240, 700);
     case Part::left_shin:
     case Part::right_shin:
       return scaled_by_mass(220, 700);
