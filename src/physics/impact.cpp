@@ -124,11 +124,14 @@ Base::Beyond excess_of(const BodyModel& body, const Blow& blow, const Footing& f
   return beyond;
 }
 
-// Whether the body stands on both feet and its action lets it: nothing of it goes anywhere.
+// Whether the body stands on both feet, well over them, and its action lets it: nothing of it goes
+// anywhere.
 bool stands(const BodyModel& body, const ImpactFrame& frame) {
   constexpr float kStill = .02f;  // m that feet and centre of mass may go over the ground in 100 ms
+  constexpr float kInside = .06f;  // m: at least so far inside of its base
   if (!frame.contacts().left || !frame.contacts().right) return false;
-  const WorldPose now = world_pose(body.skeleton, frame.pose()),
+  const WorldPose before = world_pose(body.skeleton, frame.before()),
+                  now = world_pose(body.skeleton, frame.pose()),
                   later = world_pose(body.skeleton, frame.continued(kImpulseStepTicks));
   const auto still = [](Vec3 a, Vec3 b) {
     return glm::length(Vec3{b.x - a.x, 0, b.z - a.z}) < kStill;
@@ -137,7 +140,11 @@ bool stands(const BodyModel& body, const ImpactFrame& frame) {
     const std::size_t ankle = index(leg(side).end);
     if (!still(now.position[ankle], later.position[ankle])) return false;
   }
-  return still(center_of_mass(body, now), center_of_mass(body, later));
+  const Vec3 center = center_of_mass(body, now);
+  if (!still(center, center_of_mass(body, later))) return false;
+  const Vec3 velocity = (center - center_of_mass(body, before)) / kTickSeconds;
+  const Vec3 xi = extrapolated(center, velocity, pendulum_rate(body));
+  return base_of(body, now, frame.contacts()).beyond(xi).distance < -kInside;
 }
 
 // Within so much of the edge, m, the rule is wrong about one body in three: one that stands is
