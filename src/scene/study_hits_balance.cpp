@@ -227,7 +227,8 @@ void fall_rows(const HitsAsked& asked, HitRows& rows) {
     if (asked.run.stopped()) return;
     const Pose& pose = stances[i % 2];
     const Part part = kStruck[i / 2 % kStruck.size()];
-    const float way = static_cast<float>(i / 2 / kStruck.size()) * 2 * kPi / kWayCount;
+    const std::size_t turn = i / 2 / kStruck.size();
+    const float way = static_cast<float>(turn) * 2 * kPi / kWayCount;
     const auto hit = [&](float impulse) { return StillHit(body, pose, part, way, impulse); };
     const float held = threshold(
         [&](float impulse) { return severity(impulse_step(body, hit(impulse).input)) < 4; });
