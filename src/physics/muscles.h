@@ -1,7 +1,7 @@
 #pragma once
 // Muscles: torque limits and stiffness of every joint (ragdoll.md section 1), scaled with the mass.
-// Trunk and hips are a little stronger than there: with them the impulses that a body just holds
-// come nearest to that file's table (40 of them, rms of the ratios' logarithms .125; else .135).
+// Trunk and hips are a little stronger than there: with them 39 of the 40 impulses that a body just
+// holds are within a quarter of that file's table (`ringcraft study hits --only balance`).
 
 #include <array>
 
