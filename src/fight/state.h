@@ -19,7 +19,8 @@ struct Launch {
   float aim = 0;  // rad: turn toward the opponent, eased in over the first half of the startup
   bool forced = false;     // a response or a get-up: not chosen
   std::uint8_t spent = 0;  // bit i: strike i has hit, was blocked or was evaded
-  float share = 1;         // 0..1, of the clip that is shown: an absorbed blow (physics/partial.h)
+  // 0..1, of the clip that is shown, where a struck body stays up (physics/partial.h).
+  float share = 1;
 
   bool operator==(const Launch&) const = default;
 };

@@ -51,4 +51,9 @@ Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contact
 // bring it back: at the instant of the blow, in a direction `off` rad from the own facing.
 float step_allowance(const BodyModel& body, int steps, float off);
 
+// How far the feet have to go to catch the body, m: where its extrapolated centre of mass, `beyond`
+// the base (m) at the end of the impulse step, will be when the first step lands (Hof 2008: a
+// change of velocity is undone by a foot placed dv / w0 farther). 0 where the body is inside.
+float stride_to_catch(const BodyModel& body, float beyond);
+
 }  // namespace ringcraft

@@ -5,14 +5,17 @@
 
 #include "motion/ik.h"
 #include "motion/strike_fit.h"
+#include "physics/balance.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr Tick kMeasured = 24;   // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
-constexpr float kFace = .15f;    // m before the head's joint: shows turns
-constexpr Tick kAnswers = 36;    // 0.3 s: to feel a blow and to choose what to do
-constexpr float kNearly = .03f;  // m from where the clip leads: as good as there
+constexpr Tick kMeasured = 24;       // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
+constexpr float kFace = .15f;        // m before the head's joint: shows turns
+constexpr Tick kAnswers = 36;        // 0.3 s: to feel a blow and to choose what to do
+constexpr float kNearly = .03f;      // m from where the clip leads: as good as there
+constexpr float kShortest = .4f;     // of a clip's steps
+constexpr float kSameStance = .05f;  // m: feet that stand so near to where they stood
 
 // Head, face and chest about the hips, m.
 std::array<Vec3, 3> upper(const Skeleton& skeleton, const Pose& pose) {
@@ -40,6 +43,18 @@ float apart(const std::array<Vec3, N>& a, const std::array<Vec3, N>& b) {
   float most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
   return most;
+}
+
+// How far the feet stand at the end of a clip from where they stood at its beginning, seen from the
+// root, m of the canonical body.
+float stance_change(const Skeleton& skeleton, const Clip& clip) {
+  const auto ankles = [&](Tick tick) {
+    const WorldPose world = world_pose(skeleton, clip.at(tick));
+    const Placement root = inverse(clip.root_at(tick));
+    return std::array<Vec3, 2>{root * world.position[index(Joint::left_foot)],
+                               root * world.position[index(Joint::right_foot)]};
+  };
+  return apart(ankles(0), ankles(clip.length()));
 }
 
 }  // namespace
@@ -90,6 +105,23 @@ std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip
   left.reserve(clip.size());
   for (const Pose& pose : clip) left.push_back(apart(whole(skeleton, pose), at_last));
   return left;
+}
+
+Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale) {
+  Strides strides;
+  for (const Pose& pose : clip.frames) {
+    const Vec3 way = pose.hips - clip.frames.front().hips;
+    strides.longest = std::max(strides.longest, scale * glm::length(Vec3{way.x, 0, way.z}));
+  }
+  const bool in_part = stance_change(skeleton, clip) < kSameStance;
+  strides.shortest = (in_part ? kShortest : 1) * strides.longest;
+  return strides;
+}
+
+float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides) {
+  if (strides.longest <= 0) return 1;
+  const float stride = stride_to_catch(body, outcome.margin);
+  return std::clamp(stride, strides.shortest, strides.longest) / strides.longest;
 }
 
 Tick free_again(std::span<const float> left, float share) {

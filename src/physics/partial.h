@@ -1,6 +1,6 @@
 #pragma once
 // Partial responses: an absorbed blow is answered by as much of its clip as the blow moves the
-// body.
+// body, recovery steps are as long as it takes to catch it.
 
 #include <span>
 #include <vector>
@@ -35,6 +35,18 @@ std::vector<float> way_left(const Skeleton& skeleton, std::span<const Pose> clip
 // stays up may act again: it had time to choose, and what is left of its way is less than 3 cm.
 // `left`: way_left of the whole clip.
 Tick free_again(std::span<const float> left, float share);
+
+// How far a recovery's clip takes the hips over the ground, m: shown in part, which would not leave
+// the floor if it were less, and as a whole. A clip that does not end in the stance in which it
+// begins is only shown as a whole: a part of it would end in no stance.
+struct Strides {
+  float shortest = 0, longest = 0;
+};
+Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale);
+
+// The share 0..1 of a recovery's clip that answers the blow: how far the feet have to go
+// (stride_to_catch, physics/balance.h) against how far they go in the clip.
+float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides);
 
 // share_of_clip() as an impulse step tells it, 100 ms on, without a second simulation.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);

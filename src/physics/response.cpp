@@ -5,13 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/balance.h"
+#include "physics/partial.h"
+
 namespace ringcraft {
 namespace {
 
 constexpr float kMostUnlike = .2f;     // m
 constexpr float kWrongZone = 3.0f;     // steps: a kick to the thigh does not throw the head back
 constexpr float kMotionWeight = 3.0f;  // steps per metre that the bends of two motions differ by
-constexpr Tick kWindow = 14;           // of a response clip, against the 100 ms of the impulse step
+constexpr float kStep = .4f;  // m that a clip's steps are too short or too long count as one
+constexpr Tick kWindow = 14;  // of a response clip, against the 100 ms of the impulse step
 
 // How far head, chest and hips of a clip go in its first 100 ms and a bit, action space.
 std::array<Vec3, 3> moved(const Skeleton& skeleton, const Clip& clip) {
@@ -31,6 +35,11 @@ float unlike(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   float sum = 0;
   for (std::size_t i = 0; i < 2; ++i) sum += glm::distance(a[i] - a[2], b[i] - b[2]);
   return std::min(sum, kMostUnlike);
+}
+
+// By how much the steps of a clip are too short or too long, m of the canonical body.
+float out_of_reach(const Strides& strides, float stride) {
+  return std::abs(stride - std::clamp(stride, strides.shortest, strides.longest));
 }
 
 // How ill an action answers the outcome, smaller is better: first the kind, then steps, direction
@@ -105,12 +114,14 @@ bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
   return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
 }
 
-ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing,
-                         Stance stance) {
+ActionId choose_response(const MotionLibrary& library, const BodyModel& body,
+                         const ImpactOutcome& outcome, float facing, Stance stance) {
   const float direction = wrapped_angle(outcome.direction - facing);
   std::array<Vec3, 3> simulated = outcome.moved;
   for (Vec3& m : simulated) m = yaw_rotation(-facing) * m;
   const bool bends = outcome.moved != std::array<Vec3, 3>{};  // an outcome made by hand may not say
+  const bool steps = outcome.response == ResponseKind::recovery_steps;
+  const float stride = stride_to_catch(body, outcome.margin) / body.scale;
   ActionId best;
   Misfit least;
   for (const ActionId id : library.responses()) {
@@ -118,6 +129,9 @@ ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outc
     if (!action.response || action.stance != stance) continue;
     Misfit m = misfit(*action.response, outcome, direction);
     if (bends) m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip));
+    if (steps) {
+      m.rest += out_of_reach(strides_of(library.skeleton(), action.clip, 1), stride) / kStep;
+    }
     if (!best.valid() || m.better_than(least)) {  // equal: the lower index stays
       best = id;
       least = m;

@@ -16,11 +16,13 @@ inline constexpr float kTouchImpulse = 5.0f;
 // a step. `impulse` in N s.
 bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 
-// The response action of the outcome's kind that fits best by steps, by direction (seen from a body
-// that faces `facing`, world yaw) and by the motion of head, chest and hips that it continues.
+// The response action of the outcome's kind that fits best by steps and how far they can go, by
+// direction (seen from a body that faces `facing`, world yaw) and by the motion of head, chest and
+// hips that it continues.
 // Equal ones: the lower index. The library must hold one response at least.
 // Only responses of the struck fighter's stance count.
-ActionId choose_response(const MotionLibrary& library, const ImpactOutcome& outcome, float facing,
+ActionId choose_response(const MotionLibrary& library, const BodyModel& body,
+                         const ImpactOutcome& outcome, float facing,
                          Stance stance = Stance::orthodox);
 
 // Which of the lying poses is nearest to `pose`: by where the trunk's joints are about the hips and

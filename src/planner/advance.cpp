@@ -138,8 +138,9 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   if (victim.health <= 0 && !lies) {  // nobody stands without health
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
+    const MotionTables& tables = *side(event.victim).tables;
     answer.response =
-        choose_response(side(event.victim).tables->library(), answer.outcome,
+        choose_response(tables.library(), tables.body(), answer.outcome,
                         event.blow.struck.root().yaw, victim.flight.table->action->stance);
   }
   if (events_ != nullptr) events_->push_back(event);

@@ -186,7 +186,7 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
   Launch next = what.kind == Kind::get_up ? forced_get_up(library, last, action, node.now, scale)
                                           : forced_response(library, last, action, node.now, scale);
   if (what.response && what.response->kind != ResponseKind::knockdown) {
-    if (what.response->kind == ResponseKind::absorb) next.share = duelist.pending_share;
+    next.share = duelist.pending_share;
     next.end = next.start + free_again(tables.at(action).way_left, next.share);
   }
   duelist.flight = InFlight(tables, next);

@@ -189,10 +189,13 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
   const bool touch = answer.impulse < kTouchImpulse;
   if (!touch) answer.outcome = impulse_step(victim.body(), input, own);
-  answer.response =
-      choose_response(victim.library(), answer.outcome, struck.root().yaw, action.action->stance);
+  answer.response = choose_response(victim.library(), victim.body(), answer.outcome,
+                                    struck.root().yaw, action.action->stance);
   if (answer.outcome.response == ResponseKind::absorb) {
     answer.share = share_foreseen(answer.outcome, victim.at(answer.response).way);
+  } else if (answer.outcome.response == ResponseKind::recovery_steps) {
+    answer.share =
+        share_of_steps(victim.body(), answer.outcome, victim.at(answer.response).strides);
   }
   return answer;
 }

@@ -10,8 +10,8 @@
 namespace ringcraft {
 namespace {
 
-// Shares of an absorbing response that have tables of their own; the whole is the next step.
-constexpr std::array<float, 3> kParts{0, 1.0f / 3, 2.0f / 3};
+// Shares of a response that stays up that have tables of their own; the whole is the next step.
+constexpr std::array<float, 4> kParts{0, .25f, .5f, .75f};
 
 float ground_distance(Vec3 p) {
   return std::hypot(p.x, p.z);
@@ -280,7 +280,7 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     if (kind == ResponseKind::knockdown) continue;
     ActionTable& table = actions_[response.at()];
     table.way_left = way_left(body_.skeleton, table.pose);
-    if (kind == ResponseKind::absorb) add_parts(response);
+    add_parts(response);
   }
   find_lull();
 }
@@ -307,6 +307,7 @@ void MotionTables::add_parts(ActionId action) {
   Pose rest = whole.pose.front();
   put_in_guard(library_, *whole.action, rest);
   whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
+  whole.strides = strides_of(library_.skeleton(), whole.action->clip, body_.scale);
   parts_[action.at()] = actions_.size();
   for (const float share : kParts) {
     std::vector<Pose> poses;

@@ -8,6 +8,7 @@
 
 #include "fight/state.h"
 #include "physics/contact.h"
+#include "physics/partial.h"
 
 namespace ringcraft {
 
@@ -90,7 +91,8 @@ struct ActionTable {
   std::vector<StrikeTable> strikes;
   float extent = 0;             // largest distance of the body from the origin on the ground, m
   Frame end;                    // root[length]
-  float way = 0;                // of an absorbing response: way_of_clip (physics/partial.h), m
+  float way = 0;                // of a response that stays up: way_of_clip (physics/partial.h), m
+  Strides strides;              // of the same
   std::vector<float> way_left;  // of a response that stays up, one a tick, m
   ActionId get_up;              // of a fall: what follows it; invalid for anything else
   std::span<const NextAction> next;  // what a fighter may choose after it, by index
@@ -131,7 +133,7 @@ class MotionTables {
   const MotionLibrary& library() const { return library_; }
   const BodyModel& body() const { return body_; }
   const ActionTable& at(ActionId action) const { return actions_[action.at()]; }
-  // The table of as much of an absorbing response as `share` says, to the nearest of a few.
+  // The table of as much of a response as `share` says, to the nearest of a few.
   const ActionTable& at(ActionId action, float share) const;
   // Of the library's actions and of parts of them.
   std::size_t count() const { return actions_.size(); }

@@ -17,7 +17,9 @@ constexpr Tick kAhead = 9;  // of the clip, that the end of the simulation is ea
 // Moves a launch so that at `tick` its clip's hips are over the ground where the shown body's are.
 void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick tick,
            Launch& launch) {
-  const Vec3 off = shown.hips - pose_at(library, launch, tick, scale).hips;
+  const Vec3 from = pose_at(library, launch, launch.start, scale).hips;
+  const Vec3 clip = glm::mix(from, pose_at(library, launch, tick, scale).hips, launch.share);
+  const Vec3 off = shown.hips - clip;
   launch.placement.x += off.x;
   launch.placement.z += off.z;
 }
@@ -28,7 +30,7 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
                  const ImpactInput& input, const ImpactOutcome& outcome) {
   const float facing = root_at(library, cut, now, body.scale).yaw;
   const Stance stance = library.action(cut.action).stance;
-  const ActionId response = choose_response(library, outcome, facing, stance);
+  const ActionId response = choose_response(library, body, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);
   // Who steps goes from where it is, not from where the cut action stood; who keeps its feet where
@@ -45,9 +47,12 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   if (!falls) {
     const std::vector<float> left =
         way_left(body.skeleton, std::span(target).first(static_cast<std::size_t>(clip) + 1));
-    if (!steps) {
-      const Pose rest = rest_of(library, answer.launch, body.scale);
-      answer.launch.share = share_of_clip(body, input, outcome, rest, target);
+    const Pose rest = rest_of(library, answer.launch, body.scale);
+    const Clip& steps_of = library.action(response).clip;
+    answer.launch.share =
+        steps ? share_of_steps(body, outcome, strides_of(library.skeleton(), steps_of, body.scale))
+              : share_of_clip(body, input, outcome, rest, target);
+    if (answer.launch.share < 1) {
       for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
     }
     answer.launch.end = now + free_again(left, answer.launch.share);

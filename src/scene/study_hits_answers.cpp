@@ -8,10 +8,12 @@
 #include "base/quantile.h"
 #include "base/random.h"
 #include "motion/quality.h"
+#include "physics/partial.h"
 #include "physics/ragdoll.h"
 #include "physics/response.h"
 #include "physics/stances.h"
 #include "planner/root_search.h"
+#include "scene/answer.h"
 #include "scene/study_hits_rows.h"
 
 namespace ringcraft {
@@ -59,8 +61,11 @@ Seam seam_over(const MotionLibrary& library, const BodyModel& body, const Fighte
   const auto shown = [&](Tick t) {
     return world_pose(body.skeleton, track.frames[static_cast<std::size_t>(t)]);
   };
+  const Pose rest = rest_of(library, launch, body.scale);
   const auto clip = [&](Tick t) {
-    return world_pose(body.skeleton, pose_at(library, launch, t, body.scale));
+    Pose pose = pose_at(library, launch, t, body.scale);
+    if (launch.share < 1) pose = partial_pose(body.skeleton, rest, pose, launch.share);
+    return world_pose(body.skeleton, pose);
   };
   for (Tick t = std::max(from, 4); t <= std::min(to, last); ++t) {
     const auto is = jumps(shown(t - 4), shown(t - 2), shown(t));

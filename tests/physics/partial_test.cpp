@@ -1,8 +1,11 @@
 #include "physics/partial.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "motion/ik.h"
+#include "physics/balance.h"
 #include "physics/hit.h"
 
 namespace ringcraft {
@@ -52,6 +55,26 @@ TEST_F(Partial, AForeseenShareIsTheWayOfTheBodyInTheWayOfTheClip) {
   EXPECT_EQ(share_foreseen(outcome, .01f), 1);  // never more than the clip
   for (Vec3& one : outcome.moved) one += Vec3{.3f, 0, 0};
   EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);  // who is shoved as a whole does not bend
+}
+
+// Recovery feet are placed by dv / w0.
+TEST_F(Partial, StepsAreAsLongAsItTakesToCatchTheBody) {
+  const Strides clip{.18f, .44f};  // m
+  const auto share = [&](float margin) {
+    ImpactOutcome outcome;
+    outcome.margin = margin;
+    return share_of_steps(body, outcome, clip);
+  };
+  const float least = clip.shortest / clip.longest;
+  EXPECT_EQ(share(-.02f), least);
+  EXPECT_EQ(share(.01f), least);
+  EXPECT_EQ(share(.4f), 1);  // never more than the clip
+  const float once = share(.1f);
+  EXPECT_GT(once, least);
+  EXPECT_NEAR(share(.15f), 1.5f * once, 1e-4f);
+  // 0.1 m beyond the base at 100 ms is what a foot that lands 0.29 s later has to make up for.
+  EXPECT_NEAR(clip.longest * once, .1f * std::exp(.29f * pendulum_rate(body)), 1e-4f);
+  EXPECT_EQ(stride_to_catch(body, -1), 0);
 }
 
 // A clip that goes 12 cm out by its 20th tick and comes back by its 80th.

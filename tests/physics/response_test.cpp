@@ -11,13 +11,14 @@ namespace {
 class ResponseChoice : public testing::Test {
  protected:
   MotionLibrary library = synthetic::library();
+  BodyModel body = make_body({"b", kCanonicalHeight, 75, Sex::male});
 
   const std::string& chosen(ResponseKind kind, int steps, float direction, float facing = 0) const {
     ImpactOutcome outcome;
     outcome.response = kind;
     outcome.steps = steps;
     outcome.direction = direction;
-    const ActionId id = choose_response(library, outcome, facing);
+    const ActionId id = choose_response(library, body, outcome, facing);
     EXPECT_TRUE(id.valid());
     return library.action(id).name;
   }
@@ -62,18 +63,40 @@ TEST_F(ResponseChoice, OfLikeResponsesTheOneThatBendsAsTheBodyDoesIsTaken) {
   ImpactOutcome outcome;
   outcome.direction = kPi;
   outcome.moved = {Vec3{0, 0, -.10f}, Vec3{0, 0, -.03f}, Vec3{}};  // a blow to the head
-  EXPECT_EQ(two.action(choose_response(two, outcome, 0)).name, "thrown_back");
+  EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "thrown_back");
   outcome.moved = {Vec3{}, Vec3{0, 0, -.06f}, Vec3{0, 0, -.08f}};  // a blow to the belly
-  EXPECT_EQ(two.action(choose_response(two, outcome, 0)).name, "bent_fore");
+  EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "bent_fore");
+}
+
+TEST_F(ResponseChoice, OfLikeStepsThoseThatCatchTheBodyAreTaken) {
+  synthetic::Builder builder;
+  synthetic::Key idle;
+  idle.tick = 36;
+  builder.add("idle", Kind::idle, {synthetic::Key{}, idle});
+  for (const auto& [name, way] : {std::pair{"short", .2f}, std::pair{"long", .7f}}) {
+    synthetic::Key end;
+    end.tick = 60;
+    end.root.z = -way;
+    builder.add(name, Kind::response, {synthetic::Key{}, end}).response =
+        Response{ResponseKind::recovery_steps, 1, kPi};
+  }
+  const MotionLibrary two("two", builder.take());
+  ImpactOutcome outcome;
+  outcome.response = ResponseKind::recovery_steps;
+  outcome.steps = 1;
+  outcome.direction = kPi;
+  outcome.margin = .06f;  // to be caught by a step of 0.15 m
+  EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "short");
+  outcome.margin = .25f;
+  EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "long");
 }
 
 TEST_F(ResponseChoice, AnImpactOnALibraryPoseLeadsToAResponseOfItsKind) {
-  const BodyModel body = make_body({"b", kCanonicalHeight, 75, Sex::male});
   const Pose pose = library.action(library.find("idle")).clip.at(0);
   for (const float impulse : {4.0f, 75.0f, 250.0f}) {
     const ImpactOutcome outcome =
         stance::outcome_of(body, pose, Part::chest, {0, 0, -impulse}, {0, 0, .1f});
-    const Action& answer = library.action(choose_response(library, outcome, 0));
+    const Action& answer = library.action(choose_response(library, body, outcome, 0));
     EXPECT_EQ(answer.response->kind, outcome.response) << impulse;
     EXPECT_GT(std::abs(answer.response->direction), radians(60)) << impulse;
   }

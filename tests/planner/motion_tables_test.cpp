@@ -15,13 +15,15 @@ class PartsOfResponses : public testing::Test {
     static const MotionTables kTables(default_library(), make_body({}));
     return kTables;
   }
-  static std::vector<ActionId> absorbing() {
+  static std::vector<ActionId> of_kind(ResponseKind kind) {
     std::vector<ActionId> all;
     for (const ActionId id : default_library().responses()) {
-      if (default_library().action(id).response->kind == ResponseKind::absorb) all.push_back(id);
+      if (default_library().action(id).response->kind == kind) all.push_back(id);
     }
     return all;
   }
+  static std::vector<ActionId> absorbing() { return of_kind(ResponseKind::absorb); }
+  static std::vector<ActionId> stepping() { return of_kind(ResponseKind::recovery_steps); }
 };
 
 TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
@@ -33,7 +35,7 @@ TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
     put_in_guard(default_library(), *whole.action, rest);
     EXPECT_FLOAT_EQ(whole.way, way_of_clip(skeleton, rest, whole.pose)) << whole.action->name;
     ASSERT_GT(whole.way, 0) << whole.action->name;
-    for (const float share : {0.0f, 1.0f / 3, 2.0f / 3}) {
+    for (const float share : {0.0f, .25f, .5f, .75f}) {
       const ActionTable& part = tables().at(id, share);
       // Turns are shared out, so the way is not quite straight.
       EXPECT_NEAR(way_of_clip(skeleton, rest, part.pose), share * whole.way, 0.1f * whole.way)
@@ -43,12 +45,42 @@ TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
   }
 }
 
+TEST_F(PartsOfResponses, StepAsFarAsTheirShareOfTheClip) {
+  ASSERT_FALSE(stepping().empty());
+  for (const ActionId id : stepping()) {
+    const ActionTable& whole = tables().at(id);
+    const Strides strides =
+        strides_of(default_library().skeleton(), whole.action->clip, tables().body().scale);
+    EXPECT_EQ(whole.strides.longest, strides.longest) << whole.action->name;
+    EXPECT_EQ(whole.strides.shortest, strides.shortest) << whole.action->name;
+    const Vec3 went = whole.pose.back().hips - whole.pose.front().hips;
+    for (const float share : {.25f, .5f, .75f}) {
+      const ActionTable& part = tables().at(id, share);
+      EXPECT_LT(glm::distance(part.pose.back().hips - part.pose.front().hips, share * went), .005f)
+          << whole.action->name << " " << share;
+      EXPECT_NEAR(part.end.x, share * whole.end.x, 1e-5f);
+      EXPECT_NEAR(part.end.z, share * whole.end.z, 1e-5f);
+    }
+  }
+}
+
+// What ends in another stance, as captured steps do, has no part that ends in one.
+TEST_F(PartsOfResponses, AreShownOfStepsThatEndInTheirStanceOnly) {
+  const auto strides = [&](const char* name) {
+    return tables().at(default_library().find(name)).strides;
+  };
+  EXPECT_LT(strides("recover_back_1").shortest, .5f * strides("recover_back_1").longest);
+  EXPECT_EQ(strides("recover_left_1_boxer").shortest, strides("recover_left_1_boxer").longest);
+}
+
 TEST_F(PartsOfResponses, AreTheNearestToTheShareAndLeadWhereTheWholeLeads) {
-  for (const ActionId id : absorbing()) {
+  std::vector<ActionId> all = absorbing();
+  for (const ActionId id : stepping()) all.push_back(id);
+  for (const ActionId id : all) {
     const ActionTable& whole = tables().at(id);
     EXPECT_EQ(&tables().at(id, 1), &whole);
     EXPECT_EQ(&tables().at(id, 0.9f), &whole);
-    EXPECT_EQ(&tables().at(id, 0.2f), &tables().at(id, 0.4f));
+    EXPECT_EQ(&tables().at(id, 0.2f), &tables().at(id, 0.3f));
     EXPECT_NE(&tables().at(id, 0.1f), &tables().at(id, 0.2f));
     for (const float share : {0.0f, 0.3f, 0.6f}) {
       const ActionTable& part = tables().at(id, share);
@@ -61,10 +93,10 @@ TEST_F(PartsOfResponses, AreTheNearestToTheShareAndLeadWhereTheWholeLeads) {
   }
 }
 
-TEST_F(PartsOfResponses, AreOfAbsorbingResponsesOnly) {
+TEST_F(PartsOfResponses, AreOfResponsesThatStayUpOnly) {
   for (std::size_t i = 0; i < default_library().actions().size(); ++i) {
     const Action& action = default_library().actions()[i];
-    if (action.response && action.response->kind == ResponseKind::absorb) continue;
+    if (action.response && action.response->kind != ResponseKind::knockdown) continue;
     EXPECT_EQ(&tables().at(ActionId(i), 0), &tables().at(ActionId(i))) << action.name;
   }
 }

@@ -67,6 +67,25 @@ TEST(StruckFeet, StandUntilTheBodyHasHadTimeToStep) {
   }
 }
 
+// The same number of steps, but as long as it takes: the feet end where the blow has driven them.
+TEST(StruckBodies, GoFartherTheHarderTheyArePushed) {
+  for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{1, 0, 0}}) {
+    float last = 0;
+    for (const float impulse : {.4f, .6f, .8f, 1.0f}) {  // of what one step holds
+      const float most = way.z < 0 ? 115.0f : 45.0f;     // N s
+      const HitAnswer answer =
+          answer_to_case({"idle_guard_bounce", .1, Part::chest, most * impulse * way, 1});
+      ASSERT_EQ(answer.outcome.steps, 1) << most * impulse;
+      const auto frames = frames_from_hit(answer);
+      const float went =
+          glm::dot(frames[static_cast<std::size_t>(ticks(1.0))].hips - frames[0].hips, way);
+      EXPECT_GT(went, last + .03f) << most * impulse;
+      last = went;
+    }
+    EXPECT_GT(last, .35f);
+  }
+}
+
 // Who was on the way somewhere else when the blow landed brakes, and goes the way of the blow.
 TEST(StruckBodies, GoTheWayOfTheBlowWhereverTheyWereGoing) {
   const std::vector<StruckCase> cases{
