@@ -63,13 +63,29 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
   if (glm::dot(c.velocity, c.normal) >= 0) return std::nullopt;  // slides past or draws away
   c.striker = striker;
   c.struck = struck;
-  c.blocked = is_guard_part(struck);
+  c.blocked = (target.guards & bit(struck)) != 0;
   c.point = d.on_second + c.normal * t0.radius;
   c.share = share;
   return c;
 }
 
 }  // namespace
+
+std::uint32_t guarding_parts() {
+  return bit(Part::left_forearm) | bit(Part::right_forearm) | bit(Part::left_hand) |
+         bit(Part::right_hand);
+}
+
+std::uint32_t guarding_parts(const Action& action, Tick age) {
+  const std::optional<Defense>& defense = action.defense;
+  std::uint32_t parts = guarding_parts();
+  if (!defense || defense->kind != DefenseKind::check) return parts;
+  if (age < defense->begin || age >= defense->end) return parts;
+  const FootContacts carry = action.clip.contacts_at(age);
+  if (!carry.left) parts |= bit(Part::left_shin) | bit(Part::left_foot);
+  if (!carry.right) parts |= bit(Part::right_shin) | bit(Part::right_foot);
+  return parts;
+}
 
 float travel(const Capsule& before, const Capsule& after) {
   return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));

@@ -8,15 +8,21 @@
 
 namespace ringcraft {
 
+// Parts that take a blow for what is behind them at that age of an action's clip, bit index(part):
+// gloves and forearms always; while a check protects, the shin and foot of the leg that is lifted.
+std::uint32_t guarding_parts(const Action& action, Tick age);
+std::uint32_t guarding_parts();  // whatever the body does: gloves and forearms
+
 // The capsules of one body at two neighbouring moments.
 struct SweptBody {
   BodyCapsules before, after;
   float seconds = 1.0f / 120.0f;  // between them
+  std::uint32_t guards = guarding_parts();
 };
 
 struct Contact {
   Part striker = Part::right_hand;
-  Part struck = Part::head;  // the first part in the way, a guarding forearm or glove where blocked
+  Part struck = Part::head;  // the first part in the way, one that guards where blocked
   bool blocked = false;
   Vec3 point{};     // on the struck part's surface, world, m
   Vec3 normal{};    // unit, from the struck part's axis toward the striker

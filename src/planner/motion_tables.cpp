@@ -428,6 +428,7 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
   SweptBody struck;
   struck.before = target.table->capsules_at(age - 1);
   struck.after = target.table->capsules_at(age);
+  struck.guards = guarding_parts(*target.table->action, target.table->clip_age(age));
   return strike_contact(striker, strike.strike, struck, near);
 }
 

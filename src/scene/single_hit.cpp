@@ -185,7 +185,9 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   // A guard that holds a blow answers by going on.
   if (input.blow.blocked && answer.outcome.response == ResponseKind::absorb) {
     answer.response = query.action;
-    showing.stage().drive_back(kStruck, input.blow.part, struck_velocity(input.blow));
+    if (is_guard_part(input.blow.part)) {
+      showing.stage().drive_back(kStruck, input.blow.part, struck_velocity(input.blow));
+    }
     showing.settle();
     showing.show_to(showing.now() + kAfterwards);
   } else {

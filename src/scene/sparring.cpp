@@ -157,18 +157,9 @@ class AttackSparring {
       while (at + 1 < targets.size() && targets[at].launch.end <= tick) ++at;
       if (!may_reach(attack, strike, targets[at])) continue;
       if (const auto contact = contact_at(attack, strike, targets[at], tick))
-        return Met{*contact, tick, contact->blocked || checks(targets[at], tick, contact->struck)};
+        return Met{*contact, tick, contact->blocked};
     }
     return std::nullopt;
-  }
-
-  // Whether the part is the shin (or its foot) of a fighter who checks at that tick.
-  static bool checks(const InFlight& target, Tick tick, Part struck) {
-    const std::optional<Defense>& defense = target.table->action->defense;
-    if (!defense || defense->kind != DefenseKind::check) return false;
-    const bool lower = struck == Part::left_shin || struck == Part::right_shin ||
-                       struck == Part::left_foot || struck == Part::right_foot;
-    return lower && target.age(tick) >= defense->begin && target.age(tick) < defense->end;
   }
 
   const MotionTables& attacker_;

@@ -187,6 +187,8 @@ void Stage::show(Tick tick) {
     if (go_on(actor, tick, actor.motion)) actor.kept_out = {};
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
+    actor.swept.guards =
+        guarding_parts(library_.action(actor.launch.action), clip_age(actor, tick));
     amend(actor, actor.kept_out);
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }

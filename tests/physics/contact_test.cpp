@@ -74,6 +74,30 @@ TEST(StrikeContact, AForearmInTheWayIsABlock) {
   EXPECT_FALSE(strike_contact(m.attacker, Part::right_hand, m.target)->blocked);
 }
 
+// A leg that is lifted to check a kick takes it; the one that stands, or comes down again, is hit.
+TEST(StrikeContact, TheLiftedShinOfACheckIsAGuard) {
+  Action check;
+  check.defense = {DefenseKind::check, 10, 20};
+  check.clip.frames.resize(31);
+  check.clip.contacts.assign(31, {false, true});
+  const std::uint32_t lifted = 1u << index(Part::left_shin) | 1u << index(Part::left_foot);
+  EXPECT_EQ(guarding_parts(check, 9), guarding_parts());
+  EXPECT_EQ(guarding_parts(check, 10), guarding_parts() | lifted);
+  EXPECT_EQ(guarding_parts(check, 20), guarding_parts());
+  check.defense->kind = DefenseKind::duck;
+  EXPECT_EQ(guarding_parts(check, 10), guarding_parts());
+
+  Meeting m = fist_at_head({0, 0, -.40f}, {0, 0, .40f});
+  m.target.before[index(Part::left_shin)] =
+      m.target.after[index(Part::left_shin)] = {{0, -.1f, -.15f}, {0, .15f, -.15f}, .05f};
+  EXPECT_FALSE(strike_contact(m.attacker, Part::right_hand, m.target)->blocked);
+  m.target.guards |= lifted;
+  const auto c = strike_contact(m.attacker, Part::right_hand, m.target);
+  ASSERT_TRUE(c);
+  EXPECT_EQ(c->struck, Part::left_shin);
+  EXPECT_TRUE(c->blocked);
+}
+
 TEST(StrikeContact, ARoundhouseLandsWithTheShinToo) {
   Meeting m = fist_at_head({0, 0, -5}, {});
   Strike kick;

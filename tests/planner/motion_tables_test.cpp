@@ -141,6 +141,34 @@ TEST_F(PartsOfResponses, ALaunchFliesWithItsShare) {
   EXPECT_EQ(InFlight(tables(), launch).table, &tables().at(launch.action, 0));
 }
 
+// A low kick goes to the leg of who stands, and into the lifted shin of who checks.
+TEST(Contacts, ACheckBlocksALowKick) {
+  const MotionTables tables(default_library(), make_body({}));
+  const auto met = [&](const char* answer, Tick before) {
+    int blocked = 0, hit = 0;
+    for (float distance = 0.9f; distance < 1.3f; distance += 0.05f) {
+      const InFlight kick(tables, launch_of(default_library(), "roundhouse_lead_low", 0, {}));
+      const StrikeTable& strike = kick.table->strikes[0];
+      const InFlight target(tables, launch_of(default_library(), answer,
+                                              strike.landing_tick - before, {0, distance, kPi}));
+      for (Tick t = strike.strike.active_begin; t < strike.strike.active_end; ++t) {
+        const auto contact = contact_at(kick, strike, target, t);
+        if (!contact || zone_of(contact->struck) != TargetZone::leg) continue;
+        (contact->blocked ? blocked : hit) += 1;
+        break;
+      }
+    }
+    return std::pair{blocked, hit};
+  };
+  const auto [stands_blocked, stands_hit] = met("idle_guard_2", 20);
+  EXPECT_EQ(stands_blocked, 0);
+  EXPECT_GT(stands_hit, 0);
+  const auto [checks_blocked, checks_hit] = met("check_kick_lead", 30);
+  EXPECT_GT(checks_blocked, 0);
+  const auto [late_blocked, late_hit] = met("check_kick_lead", 10);
+  EXPECT_EQ(late_blocked, 0);
+}
+
 class MotionsInFlight : public testing::Test {
  protected:
   static const MotionTables& tables() {

@@ -57,6 +57,22 @@ TEST_F(StageTest, AMotionInFlightIsWhatWillBeShown) {
   EXPECT_GT(off_clip, 0.05f);  // the clip by itself would not do
 }
 
+TEST_F(StageTest, ACheckGuardsWithTheShinThatItLifts) {
+  Stage stage(default_library(), {make_body({})});
+  const FighterId self(0);
+  const Launch check = launch("check_kick_lead", 0, {});
+  stage.begin(self, check);
+  const std::uint32_t shin = 1u << index(Part::left_shin);
+  int guards = 0;
+  for (Tick t = 0; t <= check.end; ++t) {
+    show(stage, t);
+    guards += (stage.swept(self).guards & shin) != 0 ? 1 : 0;
+  }
+  const Defense& defense = *default_library().action(check.action).defense;
+  EXPECT_GT(guards, (defense.end - defense.begin) / 2);
+  EXPECT_LE(guards, defense.end - defense.begin);
+}
+
 TEST_F(StageTest, AMotionInFlightHasItsSimulatedPosesAndTheWayOutOfThem) {
   Stage stage(default_library(), {make_body({})});
   const FighterId self(0);
