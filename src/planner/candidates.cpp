@@ -3,6 +3,7 @@
 // k is the same at every depth: lists that narrow make a deeper search lose (planning.md).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/duel.h"
@@ -13,8 +14,24 @@ namespace {
 constexpr double kLookAhead = 1.0;  // s of location that a candidate is credited with
 constexpr double kAnswerable =
     0.6;  // share of an attack's worth against a body that may still answer
-constexpr double kDefenseShare =
-    0.8;  // share of a threat that a well-timed defense is expected to take
+// Share of a threat that a well-timed defense is expected to take, by where the blow goes: what
+// `ringcraft sparring` says of the surest of each kind at its best timing. That of a step away is
+// told by where it leads.
+struct Protects {
+  double head, body, leg;
+};
+constexpr std::array<Protects, 7> kProtects = {{{.8, .5, .1},    // guard
+                                                {.8, .7, .1},    // parry
+                                                {.95, .5, 0},    // slip
+                                                {1, .8, .6},     // duck
+                                                {.9, .4, .05},   // sway
+                                                {.5, .5, 1},     // check
+                                                {.9, .9, .5}}};  // step away
+
+double protects(DefenseKind kind, TargetZone zone) {
+  const Protects& one = kProtects.at(static_cast<std::size_t>(kind));
+  return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
+}
 
 constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
 
@@ -87,7 +104,8 @@ struct Duel::Aspect {
   struct Threat {  // a strike of the opponent that is still to come
     Tick begin = 0, end = 0;
     Vec3 from{}, to{};  // its line on the ground, world
-    double worth = 0;   // points it would cost
+    TargetZone zone = TargetZone::head;
+    double worth = 0;  // points it would cost
   };
   const SideSetup* own = nullptr;
   const InFlight* opponent = nullptr;
@@ -99,6 +117,7 @@ struct Duel::Aspect {
   Frame end;            // the own root
   Vec3 opponent_now{};  // world
   double rate_now = 0;  // F_loc
+  bool close = false;   // nearer than the fighter likes to be
   double ring_half = 0;
   std::vector<Threat> threats;
 
@@ -131,7 +150,8 @@ double Duel::Aspect::protection(const ActionTable& table, const Frame& start,
       const Tick begin = std::max(threat.begin, now + action.defense->begin);
       const Tick end = std::min(threat.end, now + action.defense->end);
       const double whole = std::max<Tick>(1, threat.end - threat.begin);
-      share = kDefenseShare * std::clamp((end - begin) / whole, 0.0, 1.0);
+      share =
+          protects(action.defense->kind, threat.zone) * std::clamp((end - begin) / whole, 0.0, 1.0);
     }
     // Where the body will have gone when the blow comes.
     const Placement& root = table.root_at((threat.begin + threat.end) / 2 - now);
@@ -206,6 +226,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
+  aspect.close = static_cast<double>(distance) < aspect.own->weights.distance;
   aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, aspect.ropes(at_now));
 
   const SideSetup& their = side(1 - who);
@@ -221,6 +242,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     threat.end = launch.start + strike.strike.active_end;
     threat.from = {frame.x, 0, frame.z};
     threat.to = frame.to_outer(strike.landing);
+    threat.zone = strike.strike.zone;
     threat.worth =
         aspect.own->weights.caution * hit_points(their.weights, strike.strike.kind,
                                                  their.clean_damage[launch.action.at()][i], false);
@@ -259,7 +281,7 @@ void Duel::score_candidates(const Node& node, int who) {
     double points = aspect.location(next, end) + 0.001 * own.launch[next.to.at()];
     if (next.attacks) points += aspect.attack(*next.table, next.to, start, aim);
     if (!aspect.threats.empty()) points += aspect.protection(*next.table, start, aim);
-    const Scored one{thousandths(points), next.kind, &next, false};
+    const Scored one{thousandths(points), next.kind, &next, false, end.distance};
     if (setup_->settings.prune.back_turned && end.cosine < kCosineBack) {
       ++counts_.back_turned;
       if (turned_ != nullptr) turned_->push_back(next.to);
@@ -278,7 +300,7 @@ void Duel::score_candidates(const Node& node, int who) {
   if (count == 0 && spare.next != nullptr) scored_[count++] = spare;
   scored_.resize(count);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
-  pick_candidates(most, !aspect.threats.empty());
+  pick_candidates(most, !aspect.threats.empty(), aspect.close);
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
 }
 
@@ -327,7 +349,7 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
 
 // The best of each class that must not be missing, then the best of the rest; in order of score.
 // A few are wanted of many: they are looked for one by one, and only they are sorted.
-void Duel::pick_candidates(std::size_t most, bool threatened) {
+void Duel::pick_candidates(std::size_t most, bool threatened, bool close) {
   const auto better = [](const Scored& a, const Scored& b) {
     return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
   };
@@ -346,8 +368,24 @@ void Duel::pick_candidates(std::size_t most, bool threatened) {
       picked_.push_back(*best);
     }
   };
+  // The step that leads farthest from the opponent. Every score is that of standing well, so of two
+  // who trade blows neither would ever look at the step that ends it.
+  const auto take_way_out = [&] {
+    Scored* farthest = nullptr;
+    for (Scored& one : scored_) {
+      if (one.taken || class_of(one.kind) != Class::step || left == 0) continue;
+      const bool farther = farthest == nullptr || one.apart > farthest->apart ||
+                           (one.apart == farthest->apart && better(one, *farthest));
+      if (farther) farthest = &one;
+    }
+    if (farthest == nullptr) return;
+    farthest->taken = true;
+    picked_.push_back(*farthest);
+    --left;
+  };
   take(1, [](Class c) { return c == Class::attack; });
   take(1, [](Class c) { return c == Class::step; });
+  if (close) take_way_out();
   take(threatened ? 2 : 1, [](Class c) { return c == Class::defense; });
   take(1, [](Class c) { return c == Class::idle; });
   take(static_cast<int>(left), [](Class) { return true; });

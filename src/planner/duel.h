@@ -219,12 +219,13 @@ class Duel {
     Kind kind;
     const NextAction* next;
     bool taken;
+    float apart;  // m: how far the roots are apart when it is over
   };
   std::vector<Scored> scored_, picked_, foreseen_;  // of moves()
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
-  void pick_candidates(std::size_t most, bool threatened);
+  void pick_candidates(std::size_t most, bool threatened, bool close);
   void foresee_habit(const Node& node, std::size_t most);
 };
 static_assert(Game<Duel>);

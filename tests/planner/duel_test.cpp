@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -545,6 +546,44 @@ TEST_F(DuelTest, CandidatesAreAsManyAtEveryDepthAndOfEveryKind) {
       node = game.apply(node, moves[static_cast<std::size_t>(pick)]).node;
     }
   }
+}
+
+// What ducks under a blow to the body helps more against it than what slips one to the head.
+TEST_F(DuelTest, DefensesAreWeighedByWhereTheBlowGoes) {
+  Style style;
+  style.candidates = 5;  // an attack, two steps and two defenses
+  set_style(style);
+  const auto offered = [&](const char* attack) {
+    FightState state = facing(0.95f);
+    state.fighters[1].launch = launch(attack, -31, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, state), moves);
+    std::set<std::string> names;
+    for (const DuelMove& move : moves) names.insert(library().action(move.action).name);
+    return names;
+  };
+  EXPECT_EQ(offered("front_kick").count("duck"), 1u);
+  EXPECT_EQ(offered("front_kick").count("slip_right"), 0u);
+}
+
+// Who stands where it wants to stand has steps that keep it there, and all of them score better
+// than the way out of the next blow.
+TEST_F(DuelTest, TheFarthestStepIsAmongTheCandidates) {
+  Style style;
+  style.candidates = 5;
+  style.distance_m = 1.05;
+  style.distance_sigma_m = 0.1;
+  set_style(style);
+  Duel game(setup_, 240);
+  std::vector<DuelMove> moves;
+  game.moves(Duel::root(setup_, facing(1.0f)), moves);
+  EXPECT_EQ(moves.size(), 5u);
+  EXPECT_EQ(std::count_if(moves.begin(), moves.end(),
+                          [&](const DuelMove& move) {
+                            return library().action(move.action).name == "step_back";
+                          }),
+            1);
 }
 
 TEST_F(DuelTest, ShowingTheBackIsPrunedButSomethingIsAlwaysLeft) {
