@@ -102,7 +102,7 @@ TEST_F(BoutTest, DeeperFighterWinsAndDeepFightsAreCareful) {
   EXPECT_GT(uneven[0].damage, uneven[1].damage);
   EXPECT_GT(uneven[0].hits, uneven[1].hits);
 
-  const std::array<Tally, 2> shallow = bouts(1, 1, 6, 30), deep = bouts(3, 3, 6, 30);
+  const std::array<Tally, 2> shallow = bouts(1, 1, 14, 30), deep = bouts(3, 3, 14, 30);
   const auto sum = [](const std::array<Tally, 2>& t, auto field) {
     return static_cast<double>(t[0].*field) + static_cast<double>(t[1].*field);
   };

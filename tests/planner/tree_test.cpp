@@ -98,24 +98,26 @@ TEST_F(TreeTest, TermsAddUpToWhatWasGained) {
   for (const LeafValue leaf : {LeafValue::weighted, LeafValue::paper}) {
     style_.leaf = leaf;
     set_style(style_);
-    const DecisionTree tree = expand_tree(setup_, random_state(3), kHorizon, 400);
     double theirs = 0;
     bool hit = false;
-    for (std::size_t id = 1; id < tree.nodes.size(); ++id) {
-      const TreeNode& node = tree.nodes[id];
-      const TreeNode& parent = tree.nodes[static_cast<std::size_t>(node.parent)];
-      std::int32_t sum = 0;
-      for (const auto& side : node.edge.terms) {
-        for (const TermSum& term : side) sum += term.credited;
-      }
-      EXPECT_EQ(node.gained - parent.gained, sum) << id;
-      theirs += std::abs(node.edge.terms[1][static_cast<std::size_t>(Term::location)].points);
-      for (const TreeEvent& one : node.edge.events) {
-        hit = hit || one.event.type == EventType::hit;
-        EXPECT_GE(one.event.tick, node.edge.start);
-        EXPECT_LE(one.event.tick, node.edge.end);
-        if (one.cuts) {
-          EXPECT_NE(node.kind, TreeKind::decision);
+    for (const std::uint64_t seed : {3, 4, 5, 6}) {
+      const DecisionTree tree = expand_tree(setup_, random_state(seed), kHorizon, 400);
+      for (std::size_t id = 1; id < tree.nodes.size(); ++id) {
+        const TreeNode& node = tree.nodes[id];
+        const TreeNode& parent = tree.nodes[static_cast<std::size_t>(node.parent)];
+        std::int32_t sum = 0;
+        for (const auto& side : node.edge.terms) {
+          for (const TermSum& term : side) sum += term.credited;
+        }
+        EXPECT_EQ(node.gained - parent.gained, sum) << id;
+        theirs += std::abs(node.edge.terms[1][static_cast<std::size_t>(Term::location)].points);
+        for (const TreeEvent& one : node.edge.events) {
+          hit = hit || one.event.type == EventType::hit;
+          EXPECT_GE(one.event.tick, node.edge.start);
+          EXPECT_LE(one.event.tick, node.edge.end);
+          if (one.cuts) {
+            EXPECT_NE(node.kind, TreeKind::decision);
+          }
         }
       }
     }
