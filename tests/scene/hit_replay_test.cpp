@@ -36,7 +36,7 @@ Result<ReplayReport> replayed(const std::string& text, int threads = 1) {
 }
 
 TEST(HitReplay, AFightsHitsComeOutToTheBit) {
-  auto scene = read_scene("duel", {"duration_s=6", "seed=3"});
+  auto scene = read_scene("duel", {"duration_s=12", "seed=4"});
   ASSERT_TRUE(scene);
   const FightRecord record = simulate_fight(default_library(), *scene, {});
   std::vector<FighterLook> looks;
