@@ -72,8 +72,14 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
 }  // namespace
 
 std::uint32_t guarding_parts() {
-  return bit(Part::left_forearm) | bit(Part::right_forearm) | bit(Part::left_hand) |
-         bit(Part::right_hand);
+  static const std::uint32_t kParts = [] {
+    std::uint32_t parts = 0;
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      if (is_guard_part(part_at(i))) parts |= bit(part_at(i));
+    }
+    return parts;
+  }();
+  return kParts;
 }
 
 std::uint32_t guarding_parts(const Action& action, Tick age) {

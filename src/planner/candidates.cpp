@@ -15,8 +15,8 @@ constexpr double kLookAhead = 1.0;  // s of location that a candidate is credite
 constexpr double kAnswerable =
     0.6;  // share of an attack's worth against a body that may still answer
 // Share of a threat that a well-timed defense is expected to take, by where the blow goes: what
-// `ringcraft sparring` says of the surest of each kind at its best timing. That of a step away is
-// told by where it leads.
+// `ringcraft sparring` says of the surest of each kind at its best timing. Where the body will have
+// gone by then counts beside it.
 struct Protects {
   double head, body, leg;
 };
