@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
 constexpr float kSinkSoft = 0.012f;       // m: over which that sets in
+constexpr float kMostSink = 0.1f;         // m: a foot for which they would sink deeper is let go
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
@@ -399,9 +400,10 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
     stand(foot, floor);
     return;
   }
-  // 3. Left behind: a step of its own, while the other foot carries.
+  // 3. Left behind: a step of its own, while the other foot carries or where the leg is too short.
+  const bool other_carries = stands(other_foot) && since_step_ > kBetweenSteps;
   const bool left_behind = foot.mode == Mode::held && astray > settings_.restep_distance &&
-                           stands(other_foot) && since_step_ > kBetweenSteps;
+                           (other_carries || foot.sink > kMostSink);
   if (planted && (foot.mode == Mode::swing || left_behind)) {
     const Vec3 goal = on_ground(clip_ball) + kUp * floor;
     begin_move(foot, Mode::step, carried - goal, velocity - on_ground(clip_velocity),
@@ -532,8 +534,8 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const Vec3 line = hip - ankle[i];
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
-    needed =
-        std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, kSinkSoft));
+    foot.sink = glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, kSinkSoft);
+    needed = std::max(needed, foot.sink);
   }
   sink_.follow(needed);
   pose.hips.y -= sink_.value;

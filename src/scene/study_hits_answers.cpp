@@ -42,6 +42,8 @@ HitQuery random_query(const MotionLibrary& library, std::uint64_t seed, float le
 struct Seam {
   double apart = 0;     // m by which a joint is elsewhere than its speed says, at 60 Hz
   double velocity = 0;  // m/s by which its velocity jumps between two frames at 60 Hz
+  Joint joint = Joint::hips;
+  Tick tick = 0;  // when it does
 };
 
 // The change of every joint's motion from one frame of 60 Hz to the next.
@@ -73,14 +75,15 @@ Seam seam_over(const MotionLibrary& library, const BodyModel& body, const Fighte
                                            : std::array<Vec3, kJointCount>{};
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const auto jump = static_cast<double>(glm::length(is[j]) - glm::length(own[j]));
-      worst.apart = std::max(worst.apart, jump);
-      worst.velocity = std::max(worst.velocity, jump * 60);
+      if (jump > worst.apart) worst = {jump, jump * 60, joint_at(j), t};
     }
   }
   return worst;
 }
 
 struct Answered {
+  HitQuery query;
+  Tick hit = 0;
   bool done = false, stays_up = false, falls = false, knocked_out = false, got_up = false;
   Seam into_clip, into_get_up, back_to_guard;
   double skate = 0;
@@ -115,9 +118,11 @@ void first_step(const BodyModel& body, const FighterTrack& track, Tick hit, Answ
 // Where one segment of a track gives way to the next: the tick of the first frame of the new one.
 Answered answered(const MotionLibrary& library, const HitQuery& query) {
   Answered a;
+  a.query = query;
   const auto answer = simulate_hit(library, query);
   if (!answer) return a;
   a.done = true;
+  a.hit = answer->hit_tick;
   const FighterTrack& track = answer->timeline.tracks.front();
   const BodyModel& body = answer->bodies.front();
   const ImpactOutcome& outcome = answer->outcome;
@@ -143,8 +148,7 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
       a.into_get_up = seam_over(library, body, track, s.launch, start, start + kBlend);
     } else {
       const Seam seam = seam_over(library, body, track, s.launch, start, start + kShortBlend);
-      a.back_to_guard.velocity = std::max(a.back_to_guard.velocity, seam.velocity);
-      a.back_to_guard.apart = std::max(a.back_to_guard.apart, seam.apart);
+      if (seam.apart > a.back_to_guard.apart) a.back_to_guard = seam;
     }
   }
   const float up = world_pose(body.skeleton, rest_pose(body.skeleton)).position[0].y;
@@ -268,11 +272,37 @@ void step_rows(const std::vector<Answered>& all, HitRows& rows) {
             mean(lands), "0.637 +- 0.099", {.35, .65});
 }
 
-void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
+// The command that shows a hit.
+std::string hit_command(const HitQuery& query) {
+  return fmt::format("ringcraft hit --pose {}@{} --part {} --impulse={},{},{} --tone {}",
+                     query.action, query.at_s, name_of(query.part), query.impulse.x, query.impulse.y,
+                     query.impulse.z, query.tone);
+}
+
+// Which hits to look at for the worst seams of a kind.
+void say_worst(const StudyRun& run, const std::string& kind, std::vector<const Answered*> all,
+               Seam Answered::* field) {
+  constexpr std::size_t kShown = 5;
+  const std::size_t shown = std::min(kShown, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),
+                    [field](const Answered* a, const Answered* b) {
+                      return (a->*field).velocity > (b->*field).velocity;
+                    });
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Seam& seam = all[i]->*field;
+    run.say(fmt::format("{}: {:.2f} m/s, {} {:.2f} s after: {}", kind, seam.velocity,
+                        vrm_name(seam.joint), seconds(seam.tick - all[i]->hit),
+                        hit_command(all[i]->query)));
+  }
+}
+
+void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   const auto worst = [&](const std::string& name, auto field, auto wanted) {
     std::vector<double> velocity, apart;
+    std::vector<const Answered*> looked_at;
     for (const Answered& a : all) {
       if (!wanted(a)) continue;
+      looked_at.push_back(&a);
       velocity.push_back((a.*field).velocity);
       apart.push_back((a.*field).apart);
     }
@@ -287,6 +317,7 @@ void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
               "");
     rows.held(fmt::format("pop {}: joint jump beyond its motion, worst", name), "m",
               quantile(apart, 1), "", at_most(.025));
+    say_worst(asked.run, name, std::move(looked_at), field);
   };
   worst("simulation to clip", &Answered::into_clip, [](const Answered& a) { return a.stays_up; });
   worst("fall to get-up", &Answered::into_get_up,
@@ -294,7 +325,7 @@ void seam_rows(const std::vector<Answered>& all, HitRows& rows) {
   worst("answer to guard", &Answered::back_to_guard, [](const Answered&) { return true; });
 }
 
-void failure_rows(const std::vector<Answered>& all, HitRows& rows) {
+void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   rows.group("V7 what game makers report wrong");
   std::vector<double> skate;
   std::size_t once = 0, falls = 0, up = 0;
@@ -311,7 +342,7 @@ void failure_rows(const std::vector<Answered>& all, HitRows& rows) {
     rows.held(fmt::format("{} falls: stands after one get-up", falls), "%", share(up, falls), "",
               at_least(100));
   }
-  seam_rows(all, rows);
+  seam_rows(asked, all, rows);
 
   const BodyModel body = make_body({});
   const std::array<Pose, 3> stances{square_stance(body), fighting_stance(body),
@@ -353,7 +384,7 @@ void answer_rows(const HitsAsked& asked, HitRows& rows) {
   seen_rows(asked, all, rows);
   count_rows(all, rows);
   step_rows(all, rows);
-  failure_rows(all, rows);
+  failure_rows(asked, all, rows);
   asked.run.say("answers looked at");
 }
 
