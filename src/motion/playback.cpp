@@ -26,6 +26,7 @@ constexpr float kBetweenSteps = 0.05f;    // s: between two steps of its own
 constexpr float kLandingHeight = 0.05f;   // m: a foot above it is not down yet, whatever the label
 constexpr float kNearlyDown = 0.035f;     // m: a step that is broken off below it is over
 constexpr float kResting = 0.015f;        // m: the ball of a foot that rests is no higher
+constexpr float kFarAstray = 0.12f;       // m: nor does it stand so far off if the other is in the air
 constexpr float kStill = 0.5f;            // m/s: nor does it move faster
 constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
@@ -205,7 +206,7 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
                              after.rotation[end], blend_seconds_, 0, hips_turn());
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
-  foot.reach = simulated_ ? reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_)) : 0.0f;
+  foot.reach = reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_));
   foot.reach_left = 1;
   foot.clip_turn = now.rotation[end];
   // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
@@ -394,7 +395,8 @@ void Playback::change_mode(Side side, bool planted, Vec3 clip_ball, float floor)
   }
   // 2. Set down: where it is, if that is near enough and it is nearly down; else by a step.
   const bool near = height < kLandingHeight && astray < settings_.restep_distance;
-  const bool coming_down = height < kNearlyDown && velocity.y < 0;
+  const bool coming_down = height < kNearlyDown && velocity.y < 0 &&
+                           (astray < kFarAstray || other_foot.mode == Mode::held);
   const bool may_stand = (near || coming_down) && glm::length(on_ground(velocity)) < kLandingSpeed;
   if (planted && foot.mode == Mode::swing && may_stand) {
     stand(foot, floor);
@@ -534,8 +536,8 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const Vec3 line = hip - ankle[i];
     const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
     const float over = line.y - std::sqrt(reach * reach - across * across);
-    foot.sink = glm::smoothstep(0.0f, 1.0f, foot.load) * soft_positive(over, kSinkSoft);
-    needed = std::max(needed, foot.sink);
+    foot.sink = soft_positive(over, kSinkSoft);
+    needed = std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * foot.sink);
   }
   sink_.follow(needed);
   pose.hips.y -= sink_.value;
