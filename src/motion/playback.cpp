@@ -11,7 +11,8 @@ namespace ringcraft {
 namespace {
 
 constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
-constexpr float kSinkSoft = 0.012f;       // m: over which that sets in
+constexpr float kSinkSoft = 0.012f;       // m: over which that sets in, and more where they rise
+constexpr float kSinkBrake = 25;          // m/s2: so fast that they are braked by this
 constexpr float kMostSink = 0.1f;         // m: a foot for which they would sink deeper is let go
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
@@ -206,8 +207,12 @@ void Playback::stitch_foot(Side side, const WorldPose& now, const WorldPose& aft
                              after.rotation[end], blend_seconds_, 0, hips_turn());
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
-  foot.reach = reach_share(skeleton_, leg(side), world_pose(skeleton_, shown_));
+  const WorldPose shown = world_pose(skeleton_, shown_);
+  foot.reach = reach_share(skeleton_, leg(side), shown);
   foot.reach_left = 1;
+  foot.over = too_high(shown.position[index(leg(side).root)], shown.position[end],
+                       std::clamp(std::max(foot.reach, reach_share(skeleton_, leg(side), now)),
+                                  kStraightest, kLongest));
   foot.clip_turn = now.rotation[end];
   // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
@@ -278,6 +283,7 @@ void Playback::stand(Foot& foot, float floor) const {
   const Vec3 moved = foot.by_joints ? foot.ball - foot.ball_before : foot.led - foot.led_before;
   const Vec3 carried = (foot.by_joints ? foot.ball : foot.led) + moved;
   foot.mode = Mode::held;
+  if (foot.sink == 0) foot.load = 1;  // asks nothing of the hips that would have to set in
   foot.place = on_ground(carried);
   foot.offset = {kUp * (carried.y - floor), kUp * (moved.y / kTickSeconds), settings_.land_seconds};
   foot.rise = 0;
@@ -497,6 +503,14 @@ Vec3 Playback::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_bal
   return ball;
 }
 
+// By how much the hip is too high for an ankle, m; below 0: by how much it could be higher.
+float Playback::too_high(Vec3 hip, Vec3 ankle, float straightest) const {
+  const float reach = straightest * skeleton_.leg_length();
+  const Vec3 line = hip - ankle;
+  const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
+  return line.y - std::sqrt(reach * reach - across * across);
+}
+
 void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose) {
   const WorldPose world = world_pose(skeleton_, pose);
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
@@ -532,11 +546,10 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     foot.reach_left = std::max(0.0f, foot.reach_left - kTickSeconds / blend_seconds_);
     straightest[i] = std::clamp(std::max(seam, reach_share(skeleton_, leg(side), clip_world)),
                                 kStraightest, kLongest);
-    const float reach = straightest[i] * skeleton_.leg_length();
-    const Vec3 line = hip - ankle[i];
-    const float across = std::min(glm::length(on_ground(line)), 0.9f * reach);
-    const float over = line.y - std::sqrt(reach * reach - across * across);
-    foot.sink = soft_positive(over, kSinkSoft);
+    const float over = too_high(hip, ankle[i], straightest[i]);
+    const float rises = started_ ? std::max(0.0f, over - foot.over) / kTickSeconds : 0.0f;
+    foot.over = over;
+    foot.sink = soft_positive(over, std::max(kSinkSoft, rises * rises / (2 * kSinkBrake)));
     needed = std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * foot.sink);
   }
   sink_.follow(needed);

@@ -74,6 +74,7 @@ class Playback {
     float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
+    float over = 0;              // m: by which the hip is too high for it, one tick ago
     float sink = 0;              // m: what it asks of the hips where it carries, so that the leg reaches it
     Vec3 ball{}, ball_before{};  // shown
     Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
@@ -107,6 +108,7 @@ class Playback {
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Side side, Quat clip_turn);
   float floor_of_shown(Side side) const;
+  float too_high(Vec3 hip, Vec3 ankle, float straightest) const;
   void place_feet(const Pose& clip_pose, FootContacts contacts, Pose& pose);
   bool arm_by_joints(Side side, const Pose& now) const;
   void stitch_hinge(const Limb& limb, const Pose& now, const Pose& after);
