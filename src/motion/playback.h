@@ -75,7 +75,7 @@ class Playback {
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
     float over = 0;              // m: by which the hip is too high for it, one tick ago
-    float sink = 0;              // m: what it asks of the hips where it carries, so that the leg reaches it
+    float sink = 0;              // m: by which they have to sink, if it carries, to reach it
     Vec3 ball{}, ball_before{};  // shown
     Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
     Lift lift;                   // of one that goes by joints

@@ -181,6 +181,16 @@ float swept_by(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& r
          (only ? kSwept / 2 : kSwept) * body.spec.height / 1.78f;
 }
 
+// Whether the body sits down: hips that drop so fast that legs which brake as hard as they can,
+// with a good two body weights, stop them no sooner than on the heels.
+bool sits_down(const BodyModel& body, const Ragdoll& ragdoll) {
+  constexpr float kLegsBrake = 12;  // m/s2, beyond gravity
+  constexpr float kHeels = .3f;     // of the leg's length: as high are hips that sit on them
+  const PartMotion hips = ragdoll.motion(Part::pelvis);
+  const float drops = std::max(0.0f, -hips.velocity.y);
+  return hips.origin.y - drops * drops / (2 * kLegsBrake) < kHeels * body.skeleton.leg_length();
+}
+
 }  // namespace
 
 ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
@@ -232,7 +242,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   if (swept > 0) beyond.distance = std::max(beyond.distance, swept);
   outcome.margin = beyond.distance;
   decide(body, input, frame, beyond, outcome);
-  if (swept > 0) {
+  if (swept > 0 || sits_down(body, ragdoll)) {
     outcome.response = ResponseKind::knockdown;
     outcome.steps = 0;
   }

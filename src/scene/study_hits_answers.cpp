@@ -275,13 +275,13 @@ void step_rows(const std::vector<Answered>& all, HitRows& rows) {
 // The command that shows a hit.
 std::string hit_command(const HitQuery& query) {
   return fmt::format("ringcraft hit --pose {}@{} --part {} --impulse={},{},{} --tone {}",
-                     query.action, query.at_s, name_of(query.part), query.impulse.x, query.impulse.y,
-                     query.impulse.z, query.tone);
+                     query.action, query.at_s, name_of(query.part), query.impulse.x,
+                     query.impulse.y, query.impulse.z, query.tone);
 }
 
 // Which hits to look at for the worst seams of a kind.
 void say_worst(const StudyRun& run, const std::string& kind, std::vector<const Answered*> all,
-               Seam Answered::* field) {
+               Seam Answered::*field) {
   constexpr std::size_t kShown = 5;
   const std::size_t shown = std::min(kShown, all.size());
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),

@@ -362,7 +362,8 @@ TEST(Playback, HipsSinkRatherThanAFootIsDragged) {
 }
 
 TEST(Playback, AFootOutOfReachIsLetGoWhileTheOtherIsInTheAir) {
-  // The clip stands on its left foot for a second, three quarters of a metre from where that stands.
+  // The clip stands on its left foot for a second, three quarters of a metre from where that
+  // stands.
   const Clip one_leg = test::clip_of(
       kSkeleton, 120,
       [](float) {
@@ -370,7 +371,10 @@ TEST(Playback, AFootOutOfReachIsLetGoWhileTheOtherIsInTheAir) {
         stance.right_ball.y += 0.3f;
         return stance;
       },
-      [](float) { return FootContacts{true, false}; }, test::in_place);
+      [](float) {
+        return FootContacts{true, false};
+      },
+      test::in_place);
   Playback playback(kSkeleton);
   Shown shown;
   play(playback, one_leg, {}, 12, shown);

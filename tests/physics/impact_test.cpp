@@ -206,6 +206,19 @@ TEST_F(Impact, ASweepOfTheCarryingLegTopplesAndATapDoesNot) {
   }
 }
 
+TEST_F(Impact, HipsThatNoLegStopsSitDown) {
+  const WorldPose start = world_pose(body.skeleton, fighting);
+  Pose squat = fighting;
+  squat.hips.y -= .3f;
+  for (const Side side : {Side::left, Side::right}) {
+    const Limb l = leg(side);
+    solve_limb(body.skeleton, l, {start.position[index(l.end)], kForward, 1.0f}, squat);
+  }
+  EXPECT_LT(severity(outcome_of(body, squat, Part::pelvis, {0, -60, 0})), 4);
+  EXPECT_EQ(severity(outcome_of(body, squat, Part::pelvis, {0, -300, 0})), 4);
+  EXPECT_LT(severity(outcome_of(body, fighting, Part::pelvis, {0, -100, 0})), 4);
+}
+
 TEST_F(Impact, ATapInMidStepIsAbsorbed) {
   // A body on its way to the next foothold is beyond its base already; a tap adds nothing to that.
   const WorldPose start = world_pose(body.skeleton, fighting);
