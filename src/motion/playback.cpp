@@ -107,6 +107,18 @@ float Playback::blend_of(const Pose& now, const Pose& after,
   return std::min(seconds, settings_.longest_blend);
 }
 
+// The same of the trunk of a body that is up, by how far it leans off the clip's: no one is upright
+// again as soon as a foot is down.
+float Playback::trunk_seconds(const WorldPose& now) const {
+  constexpr float kMostAcceleration = 5;  // m/s2: of the head over the hips
+  const WorldPose shown = world_pose(skeleton_, shown_);
+  const auto head = [](const WorldPose& world) {
+    return world.position[index(Joint::head)] - world.position[index(Joint::hips)];
+  };
+  const float seconds = std::sqrt(5.8f * glm::distance(head(shown), head(now)) / kMostAcceleration);
+  return std::clamp(seconds, blend_seconds_, settings_.longest_blend);
+}
+
 // The same of a limb that goes by its joints: what it carries goes the length of the arc.
 float Playback::swing_seconds(Side side, const Limb& limb, const Pose& now,
                               float most_acceleration) const {
@@ -153,10 +165,12 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const Vec3 hips_velocity = (moved - clip_moved) / kTickSeconds;
   hips_ = hips_decay(shown_.hips + moved - now.hips, hips_velocity);
   sink_ = {};  // what the hips had sunk is part of their offset now
+  const float trunk = simulated_ && !lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    rotation_[j] =
-        rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j], after.rotation[j],
-                       seconds, simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
+    const bool of_trunk = j > index(Joint::hips) && j <= index(Joint::head);
+    rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
+                                  after.rotation[j], of_trunk ? trunk : seconds,
+                                  simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
   flexion_.fill({});
   for (const Side side : kSides) {

@@ -93,6 +93,7 @@ class Playback {
   // How long the difference to a clip takes to fall to nothing.
   float blend_of(const Pose& now, const Pose& after,
                  const std::array<bool, 2>& arms_by_joints) const;
+  float trunk_seconds(const WorldPose& now) const;
   float swing_seconds(Side side, const Limb& limb, const Pose& now, float most_acceleration) const;
   Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool lies() const;

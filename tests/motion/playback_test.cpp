@@ -506,6 +506,25 @@ TEST(Playback, AfterASimulationTheBodyGoesOnFromItsPoseAndVelocity) {
   }
 }
 
+TEST(Playback, ATrunkThatWasThrownBackTakesItsTime) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Pose bent = idle.at(0);
+  for (const Joint joint : {Joint::spine, Joint::chest, Joint::upper_chest}) {
+    Quat& turn = bent.rotation[index(joint)];
+    turn = glm::normalize(turn * glm::angleAxis(radians(-15), kLeft));
+  }
+  Playback playback(kSkeleton);
+  Shown shown;
+  for (int i = 0; i < 4; ++i) playback.next_simulated(bent);
+  play(playback, idle, {}, 120, shown);
+  const auto off = [&](std::size_t t) {
+    const WorldPose clip = world_pose(kSkeleton, idle.at(static_cast<Tick>(t)));
+    return glm::distance(shown.at(t, Joint::head), clip.position[index(Joint::head)]);
+  };
+  EXPECT_GT(off(ticks(0.2f)), off(0) / 2);
+  EXPECT_LT(off(119), 0.01f);
+}
+
 TEST(Playback, AFootSimulatedIntoTheFloorComesUpWithoutAJump) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   Playback playback(kSkeleton);
