@@ -37,6 +37,16 @@ float stopping_seconds(Vec3 velocity);
 Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever = 0,
                      Vec3 with = {});
 
+// The same of the whole body: its yaw, which goes on the way it spins and may be more than half a
+// circle, and what it leans, apart from it.
+struct BodyTurn {
+  Decay yaw, lean;  // about +Y; a horizontal rotation vector
+  Quat value() const;
+  Vec3 left() const { return yaw.value() + lean.value(); }
+  void step(float dt);
+};
+BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds, bool simulated);
+
 // The same of a limb's root, as its swing and turn (joint_turns.h).
 Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
                  const Pose& now, const Pose& after, float seconds, float lever);

@@ -166,8 +166,10 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   hips_ = hips_decay(shown_.hips + moved - now.hips, hips_velocity);
   sink_ = {};  // what the hips had sunk is part of their offset now
   const float trunk = simulated_ && !lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    const bool of_trunk = j > index(Joint::hips) && j <= index(Joint::head);
+  turn_ = body_turn(before_.rotation[0], shown_.rotation[0], now.rotation[0], after.rotation[0],
+                    seconds, simulated_);
+  for (std::size_t j = 1; j < kJointCount; ++j) {
+    const bool of_trunk = j <= index(Joint::head);
     rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
                                   after.rotation[j], of_trunk ? trunk : seconds,
                                   simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
@@ -313,7 +315,8 @@ void Playback::stand_aside(Side side, Vec3 offset) {
 const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   Pose pose = clip_pose;
   pose.hips += hips_.value();
-  for (std::size_t j = 0; j < kJointCount; ++j) {
+  pose.rotation[0] = glm::normalize(turn_.value() * clip_pose.rotation[0]);
+  for (std::size_t j = 1; j < kJointCount; ++j) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
   }
@@ -322,6 +325,7 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   place_feet(clip_pose, contacts, pose);
   place_hands(clip_pose, pose);
   hips_.step(kTickSeconds);
+  turn_.step(kTickSeconds);
   for (Decay& decay : rotation_) decay.step(kTickSeconds);
   return show(pose);
 }
@@ -335,6 +339,7 @@ const Pose& Playback::next_simulated(const Pose& pose) {
     foot.load = 0;
   }
   hips_ = {};
+  turn_ = {};
   sink_ = {};
   hands_ = {};
   shoulders_ = hip_joints_ = {};

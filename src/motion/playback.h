@@ -97,7 +97,7 @@ class Playback {
   float swing_seconds(Side side, const Limb& limb, const Pose& now, float most_acceleration) const;
   Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool lies() const;
-  Vec3 hips_turn() const { return rotation_[index(Joint::hips)].value(); }  // left of the seam
+  Vec3 hips_turn() const { return turn_.left(); }  // left of the seam
   bool stands_still(const Foot& foot) const;
   static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
   static float clearing_rise(Decay path, float seconds);
@@ -122,10 +122,11 @@ class Playback {
   PlaybackSettings settings_;
   Pose shown_, before_;
   bool started_ = false;
-  bool simulated_ = false;         // the pose shown last was simulated
-  bool after_simulation_ = false;  // the last seam was one from a simulated pose
-  float blend_seconds_ = 0.24f;    // of the last seam
-  std::array<Decay, kJointCount> rotation_;
+  bool simulated_ = false;                         // the pose shown last was simulated
+  bool after_simulation_ = false;                  // the last seam was one from a simulated pose
+  float blend_seconds_ = 0.24f;                    // of the last seam
+  BodyTurn turn_;                                  // of the hips
+  std::array<Decay, kJointCount> rotation_;        // of the joints above and below them
   std::array<Decay, kJointCount> flexion_;         // of knees and elbows about their hinge (x, rad)
   std::array<float, kJointCount> seam_flexion_{};  // rad: the same at the seam
   Decay hips_;
