@@ -19,13 +19,13 @@ Vec3 rotation_vector_near(Quat q, Vec3 reference) {
   return glm::distance2(around, reference) < glm::distance2(v, reference) ? around : v;
 }
 
-// A rotation as lean * yaw.
+// A rotation as yaw * lean.
 struct YawAndLean {
   float yaw = 0;
   Vec3 lean{};
   explicit YawAndLean(Quat q) {
     if (std::abs(q.w) + std::abs(q.y) > 1e-4f) yaw = wrapped_angle(2 * std::atan2(q.y, q.w));
-    lean = rotation_vector(glm::normalize(q * glm::inverse(yaw_rotation(yaw))));
+    lean = rotation_vector(glm::normalize(yaw_rotation(-yaw) * q));
   }
 };
 
@@ -98,8 +98,9 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
   return {value, velocity, seconds, lever > 0 ? stopping_seconds(velocity * lever) : seconds};
 }
 
-Quat BodyTurn::value() const {
-  return from_rotation_vector(lean.value()) * yaw_rotation(yaw.value().y);
+Quat BodyTurn::of(Quat clip) const {
+  const YawAndLean own(clip);
+  return yaw_rotation(own.yaw + yaw.value().y) * from_rotation_vector(own.lean + lean.value());
 }
 
 void BodyTurn::step(float dt) {
@@ -110,19 +111,18 @@ void BodyTurn::step(float dt) {
 BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds, bool simulated) {
   constexpr float kCarries = .15f;  // s: a spin goes on so far at least
   constexpr float kReach = .71f;    // m: what turns with the hips reaches so far
-  const Quat spin = shown * glm::inverse(before);
-  const Quat carried = glm::normalize(spin * shown);
-  const YawAndLean is(carried * glm::inverse(now)),
-      next(glm::normalize(spin * carried) * glm::inverse(after));
-  const float yaw_velocity = wrapped_angle(next.yaw - is.yaw) / kTickSeconds;
-  const Vec3 lean_velocity = (next.lean - is.lean) / kTickSeconds;
+  const Quat carried = glm::normalize(shown * glm::inverse(before) * shown);
+  const YawAndLean was(shown), is(carried), clip(now), next(after);
+  const float yaw_velocity =
+      (wrapped_angle(is.yaw - was.yaw) - wrapped_angle(next.yaw - clip.yaw)) / kTickSeconds;
+  const Vec3 lean_velocity = (is.lean - was.lean - (next.lean - clip.lean)) / kTickSeconds;
   const float on = yaw_velocity * kCarries;
   const auto stops = [&](Vec3 velocity) {
-    return simulated ? stopping_seconds(velocity) : seconds;
+    return simulated ? stopping_seconds(velocity * kReach) : seconds;
   };
-  return {{kUp * (wrapped_angle(is.yaw + on) - on), kUp * yaw_velocity, seconds,
-           stops(kUp * (yaw_velocity * kReach))},
-          {is.lean, lean_velocity, seconds, stops(lean_velocity * kReach)}};
+  return {{kUp * (wrapped_angle(is.yaw - clip.yaw + on) - on), kUp * yaw_velocity, seconds,
+           stops(kUp * yaw_velocity)},
+          {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)}};
 }
 
 Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,

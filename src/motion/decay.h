@@ -37,11 +37,11 @@ float stopping_seconds(Vec3 velocity);
 Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float seconds, float lever = 0,
                      Vec3 with = {});
 
-// The same of the whole body: its yaw, which goes on the way it spins and may be more than half a
-// circle, and what it leans, apart from it.
+// The same of the whole body: its heading, which goes on the way it spins and may be more than half
+// a circle off, and how it leans from there.
 struct BodyTurn {
-  Decay yaw, lean;  // about +Y; a horizontal rotation vector
-  Quat value() const;
+  Decay yaw, lean;  // about +Y; a rotation vector in the body's heading
+  Quat of(Quat clip) const;
   Vec3 left() const { return yaw.value() + lean.value(); }
   void step(float dt);
 };

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
 constexpr float kSinkSoft = 0.012f;       // m: over which that sets in, and more where they rise
+constexpr float kSinkSoftest = 0.05f;     // m
 constexpr float kSinkBrake = 25;          // m/s2: so fast that they are braked by this
 constexpr float kMostSink = 0.1f;         // m: a foot for which they would sink deeper is let go
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
@@ -315,7 +316,7 @@ void Playback::stand_aside(Side side, Vec3 offset) {
 const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   Pose pose = clip_pose;
   pose.hips += hips_.value();
-  pose.rotation[0] = glm::normalize(turn_.value() * clip_pose.rotation[0]);
+  pose.rotation[0] = glm::normalize(turn_.of(clip_pose.rotation[0]));
   for (std::size_t j = 1; j < kJointCount; ++j) {
     pose.rotation[j] =
         glm::normalize(from_rotation_vector(rotation_[j].value()) * clip_pose.rotation[j]);
@@ -568,7 +569,8 @@ void Playback::place_feet(const Pose& clip_pose, FootContacts contacts, Pose& po
     const float over = too_high(hip, ankle[i], straightest[i]);
     const float rises = started_ ? std::max(0.0f, over - foot.over) / kTickSeconds : 0.0f;
     foot.over = over;
-    foot.sink = soft_positive(over, std::max(kSinkSoft, rises * rises / (2 * kSinkBrake)));
+    foot.sink =
+        soft_positive(over, std::clamp(rises * rises / (2 * kSinkBrake), kSinkSoft, kSinkSoftest));
     needed = std::max(needed, glm::smoothstep(0.0f, 1.0f, foot.load) * foot.sink);
   }
   sink_.follow(needed);

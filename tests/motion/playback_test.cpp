@@ -506,6 +506,31 @@ TEST(Playback, AfterASimulationTheBodyGoesOnFromItsPoseAndVelocity) {
   }
 }
 
+TEST(Playback, ASpinningBodyGoesOnRoundAndStaysUpright) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  for (const float spin : {8.0f, 13.0f}) {  // rad/s
+    Playback playback(kSkeleton);
+    Shown shown;
+    for (Tick tick = -12; tick <= 0; ++tick) {
+      const float yaw = radians(160) + spin * static_cast<float>(tick) * kTickSeconds;
+      Pose pose = placed(idle.at(0), {0, 0, yaw});
+      pose.rotation[0] = pose.rotation[0] * glm::angleAxis(radians(20), kLeft);  // leans
+      playback.next_simulated(pose);
+      shown.add(playback);
+    }
+    const std::size_t seam = shown.size();
+    play(playback, idle, {}, 160, shown);
+    float least_upright = 1, turned = 0;
+    for (std::size_t t = seam; t < shown.size(); ++t) {
+      const Quat hips = shown.poses[t].rotation[0], before = shown.poses[t - 1].rotation[0];
+      least_upright = std::min(least_upright, (hips * kUp).y);
+      turned += wrapped_angle(yaw_of(hips * kForward) - yaw_of(before * kForward));
+    }
+    EXPECT_GT(least_upright, std::cos(radians(25))) << spin;
+    EXPECT_NEAR(degrees(turned), 200, 20) << spin;  // not 160 back
+  }
+}
+
 TEST(Playback, ATrunkThatWasThrownBackTakesItsTime) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   Pose bent = idle.at(0);
