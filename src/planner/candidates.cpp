@@ -117,7 +117,6 @@ struct Duel::Aspect {
   Frame end;            // the own root
   Vec3 opponent_now{};  // world
   double rate_now = 0;  // F_loc
-  bool close = false;   // nearer than the fighter likes to be
   double ring_half = 0;
   std::vector<Threat> threats;
 
@@ -226,7 +225,6 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
-  aspect.close = static_cast<double>(distance) < aspect.own->weights.distance;
   aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, aspect.ropes(at_now));
 
   const SideSetup& their = side(1 - who);
@@ -300,7 +298,7 @@ void Duel::score_candidates(const Node& node, int who) {
   if (count == 0 && spare.next != nullptr) scored_[count++] = spare;
   scored_.resize(count);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
-  pick_candidates(most, !aspect.threats.empty(), aspect.close);
+  pick_candidates(most, !aspect.threats.empty());
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
 }
 
@@ -349,7 +347,7 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
 
 // The best of each class that must not be missing, then the best of the rest; in order of score.
 // A few are wanted of many: they are looked for one by one, and only they are sorted.
-void Duel::pick_candidates(std::size_t most, bool threatened, bool close) {
+void Duel::pick_candidates(std::size_t most, bool threatened) {
   const auto better = [](const Scored& a, const Scored& b) {
     return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
   };
@@ -385,7 +383,7 @@ void Duel::pick_candidates(std::size_t most, bool threatened, bool close) {
   };
   take(1, [](Class c) { return c == Class::attack; });
   take(1, [](Class c) { return c == Class::step; });
-  if (close) take_way_out();
+  take_way_out();
   take(threatened ? 2 : 1, [](Class c) { return c == Class::defense; });
   take(1, [](Class c) { return c == Class::idle; });
   take(static_cast<int>(left), [](Class) { return true; });

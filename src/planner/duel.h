@@ -225,7 +225,7 @@ class Duel {
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
-  void pick_candidates(std::size_t most, bool threatened, bool close);
+  void pick_candidates(std::size_t most, bool threatened);
   void foresee_habit(const Node& node, std::size_t most);
 };
 static_assert(Game<Duel>);

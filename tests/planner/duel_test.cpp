@@ -567,23 +567,26 @@ TEST_F(DuelTest, DefensesAreWeighedByWhereTheBlowGoes) {
   EXPECT_EQ(offered("front_kick").count("slip_right"), 0u);
 }
 
-// Who stands where it wants to stand has steps that keep it there, and all of them score better
-// than the way out of the next blow.
+// Who stands where it wants to stand has steps that keep it there, who stands too far away one that
+// leads nearer, and all of them score better than the way out of the next blow.
 TEST_F(DuelTest, TheFarthestStepIsAmongTheCandidates) {
   Style style;
   style.candidates = 5;
   style.distance_m = 1.05;
   style.distance_sigma_m = 0.1;
   set_style(style);
-  Duel game(setup_, 240);
-  std::vector<DuelMove> moves;
-  game.moves(Duel::root(setup_, facing(1.0f)), moves);
-  EXPECT_EQ(moves.size(), 5u);
-  EXPECT_EQ(std::count_if(moves.begin(), moves.end(),
-                          [&](const DuelMove& move) {
-                            return library().action(move.action).name == "step_back";
-                          }),
-            1);
+  for (const float distance : {1.0f, 1.2f}) {
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, facing(distance)), moves);
+    EXPECT_EQ(moves.size(), 5u);
+    EXPECT_EQ(std::count_if(moves.begin(), moves.end(),
+                            [&](const DuelMove& move) {
+                              return library().action(move.action).name == "step_back";
+                            }),
+              1)
+        << distance;
+  }
 }
 
 TEST_F(DuelTest, ShowingTheBackIsPrunedButSomethingIsAlwaysLeft) {
