@@ -99,6 +99,7 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
 }
 
 Quat BodyTurn::of(Quat clip) const {
+  if (yaw.done() && lean.done()) return clip;
   const YawAndLean own(clip);
   return yaw_rotation(own.yaw + yaw.value().y) * from_rotation_vector(own.lean + lean.value());
 }
