@@ -89,6 +89,9 @@ class Reader {
       if (auto done = read_fighter(i); !done) return tl::unexpected(done.error());
     }
     if (auto done = settle_placements(); !done) return tl::unexpected(done.error());
+    json unseeded = value_;
+    unseeded.erase("seed");
+    scene_.settings = settings_.add(unseeded.dump()).digest();
     return std::move(scene_);
   }
 
@@ -98,14 +101,19 @@ class Reader {
                        std::move(remedy));
   }
 
-  // The file that the value at `pointer` names; it must be there.
+  // The file that the value at `pointer` names; it must be there, and is part of the settings.
   Result<fs::path> named_file(const std::string& pointer, const std::string& name,
                               const std::string& folder) {
     const fs::path path = file_named(name, folder, document_.path.parent_path());
-    if (fs::exists(path)) return path;
-    return input_error(document_.path.string(), document_.place(pointer),
-                       "no such file: " + path.lexically_normal().string(),
-                       remedy_for_name(name, folder));
+    if (!fs::exists(path)) {
+      return input_error(document_.path.string(), document_.place(pointer),
+                         "no such file: " + path.lexically_normal().string(),
+                         remedy_for_name(name, folder));
+    }
+    const auto text = read_file(path);
+    if (!text) return tl::unexpected(text.error());
+    settings_.add(*text);
+    return path;
   }
 
   Result<void> read_library() {
@@ -220,6 +228,7 @@ class Reader {
 
   const Document& document_;
   const json& value_;
+  Hasher settings_;
   SceneFile scene_;
 };
 
@@ -263,11 +272,7 @@ Result<SceneFile> read_scene(const std::string& name_or_path,
     if (auto set = set_value(*document, assignment); !set) return tl::unexpected(set.error());
   }
   if (auto valid = checked(*document, "scene"); !valid) return tl::unexpected(valid.error());
-  auto scene = Reader(*document).read();
-  if (!scene) return scene;
-  document->value.erase("seed");
-  scene->settings = hash_text(document->value.dump());
-  return scene;
+  return Reader(*document).read();
 }
 
 }  // namespace ringcraft

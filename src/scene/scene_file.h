@@ -40,7 +40,8 @@ struct SceneFile {
   bool stance_switches = false;     // fighters may change their stance
   std::vector<std::string> feints;  // attacks that fighters may feign (motion/feints.h)
 
-  // Hash of all the file says but the seed; the files it names count by their names.
+  // Hash of all the file says but the seed, with the bodies and styles it names. The library and
+  // the characters count by their names.
   std::uint64_t settings = 0;
 
   // Whether the library must hold both stances (both_stances.h).

@@ -195,5 +195,24 @@ TEST_F(SceneFileTest, AFaultInABodyFileNamesThatFile) {
   EXPECT_EQ(scene.error().place, "line 1");
 }
 
+// A batch goes on only with bouts of the same settings: a style or a body that was changed makes
+// another fight of the same scene.
+TEST_F(SceneFileTest, StylesAndBodiesArePartOfTheSettingsAndTheSeedIsNot) {
+  const std::string text = kHead + kA + fighter("b", "[0, 1]", "", "own.toml", "own_style.toml");
+  const auto settings = [&](const std::string& body, const std::string& style,
+                            const std::string& seed) {
+    EXPECT_TRUE(write_file(folder_.path() / "own.toml", body));
+    EXPECT_TRUE(write_file(folder_.path() / "own_style.toml", style));
+    const auto scene = read(text, {"seed=" + seed});
+    EXPECT_TRUE(scene) << to_string(scene.error());
+    return scene->settings;
+  };
+  const std::string body = "height_m = 1.8\nmass_kg = 80\n", style = "distance_m = 1.1\n";
+  const std::uint64_t first = settings(body, style, "1");
+  EXPECT_EQ(settings(body, style, "2"), first);
+  EXPECT_NE(settings("height_m = 1.8\nmass_kg = 81\n", style, "1"), first);
+  EXPECT_NE(settings(body, "distance_m = 1.2\n", "1"), first);
+}
+
 }  // namespace
 }  // namespace ringcraft
