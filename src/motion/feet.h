@@ -1,0 +1,112 @@
+#pragma once
+// The feet of a body that is shown (playback.h). A planted foot stays where it was set down until
+// the clip lifts it, one left too far from the clip's takes a small step of its own, and where the
+// legs are too short for that the hips sink.
+
+#include <array>
+
+#include "motion/clip.h"
+#include "motion/decay.h"
+#include "motion/playback_settings.h"
+
+namespace ringcraft {
+
+class Feet {
+ public:
+  Feet(const Skeleton& body, const PlaybackSettings& settings);
+
+  // From the next tick on they follow `now`, and `after` one tick later.
+  struct Seam {
+    const WorldPose &shown, &now, &after;
+    float seconds;   // in which the difference falls to nothing
+    bool simulated;  // the pose shown last was
+    Vec3 hips_turn;  // left of the hips' turn to the clip's, a rotation vector
+  };
+  void stitch(const Seam& seam);
+
+  // Moves hips, legs and feet of `pose` for one tick of the clip; the feet where the clip has them,
+  // where they stand, or on their way.
+  void place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, Pose& pose);
+
+  // Whatever they did is over: a simulation moves them.
+  void let_go();
+
+  // What is shown in the next tick, and what replaces it (Playback::amend).
+  void show(const WorldPose& world);
+  void amend(const WorldPose& world);
+  // They go on from where they are shown, not from where they were to be.
+  void lead_from_shown();
+
+  // A foot that stands `offset`, m on the ground, off where it was led.
+  void stand_aside(Side side, Vec3 offset);
+
+  bool presses_down(Side side) const { return of(side).mode == Mode::held && !stands(side); }
+  bool stands(Side side) const { return stands(of(side)); }
+  bool by_joints(Side side) const { return of(side).by_joints; }
+  bool lies() const;                          // the hips are too low to stand
+  float sink() const { return sink_.value; }  // m: how far the hips are below the clip's
+
+ private:
+  enum class Mode : std::uint8_t { swing, step, held };
+  // What keeps something over the floor.
+  struct Lift {
+    float at_first = -1;  // m: what that took at the seam; below 0: not known yet
+    float of(float height, float clip_height, float begun);
+  };
+  struct Foot {
+    Mode mode = Mode::swing;
+    Vec3 place{};            // of the ball of the foot while held, on the ground plane
+    Decay offset;            // of the ball to where it is going
+    Decay turn;              // of the foot's world rotation to the clip's
+    bool by_joints = false;  // swings as the leg's joints take it
+    float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
+    float rise_age = 0, rise_seconds = 1;
+    float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
+    float over = 0;              // m: by which the hip is too high for it, one tick ago
+    float sink = 0;              // m: by which they have to sink, if it carries, to reach it
+    Vec3 ball{}, ball_before{};  // shown
+    Quat shown, shown_before;    // world rotation
+    Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
+    Lift lift;                   // of one that goes by joints
+    Vec3 clip_ball{};            // the clip's, one tick ago
+    Quat clip_turn;              // the same of the foot's world rotation
+    float reach = 0;             // at the seam, as a share of the leg's length
+    float reach_left = 0;        // 1 at the seam .. 0: what of that still counts
+
+    // Where the ball would be shown next if nothing changed, and how far that is from here; what
+    // went by joints was kept inside their ranges.
+    Vec3 moved() const { return by_joints ? ball - ball_before : led - led_before; }
+    Vec3 carried() const { return (by_joints ? ball : led) + moved(); }
+  };
+  struct Sink {
+    float value = 0, velocity = 0;  // m, m/s: how far the hips are below the clip's
+    void follow(float needed);
+  };
+
+  Foot& of(Side side) { return feet_[static_cast<std::size_t>(side)]; }
+  const Foot& of(Side side) const { return feet_[static_cast<std::size_t>(side)]; }
+  static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
+  bool stands_still(const Foot& foot) const;
+  static float clearing_rise(Decay path, float seconds);
+  void stitch_foot(Side side, const Seam& seam);
+  void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
+  void stand(Foot& foot, float floor) const;
+  bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
+  void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
+  Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
+  void lead(Foot& foot, Quat clip_turn, Vec3 hips_turn) const;
+  float floor_of_shown(const Foot& foot) const;
+  float too_high(Vec3 hip, Vec3 ankle, float straightest) const;
+
+  Skeleton skeleton_;
+  PlaybackSettings settings_;
+  bool started_ = false;
+  bool after_simulation_ = false;  // the last seam was one from a simulated pose
+  float blend_seconds_ = 0.24f;    // of the last seam
+  float hips_height_ = 0;          // m: shown
+  float since_step_ = 1;           // s: since a foot took a step of its own
+  Sink sink_;
+  std::array<Foot, 2> feet_;
+};
+
+}  // namespace ringcraft
