@@ -146,6 +146,7 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   foot.over = too_high(shown.position[index(leg(side).root)], shown.position[end],
                        std::clamp(std::max(foot.reach, reach_share(skeleton_, leg(side), now)),
                                   kStraightest, kLongestLeg));
+  foot.sink = soft_positive(foot.over, kSinkSoft);
   foot.clip_turn = now.rotation[end];
   // Led along a line, a foot far from the clip's passes its own hip and the knee turns over. One
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
