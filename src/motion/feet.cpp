@@ -119,13 +119,6 @@ void Feet::amend(const WorldPose& world) {
   }
 }
 
-void Feet::lead_from_shown() {
-  for (Foot& foot : feet_) {
-    foot.led_before = foot.ball_before;
-    foot.led = foot.ball;
-  }
-}
-
 // Whether a simulated foot rests on the floor, under a body that is up.
 bool Feet::stands_still(const Foot& foot) const {
   return hips_height_ > kCrouched * skeleton_.leg_length() &&
@@ -153,10 +146,8 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   foot.by_joints = simulated && !stands_still(foot);
   foot.lift = {};
   if (foot.mode == Mode::held) return;
-  if (simulated) {  // as it was amended
-    foot.led_before = foot.ball_before;
-    foot.led = foot.ball;
-  }
+  foot.led_before = foot.ball_before;  // as it was amended
+  foot.led = foot.ball;
   const Vec3 moved = foot.led - foot.led_before;
   const Vec3 offset = foot.led + moved - now.position[ball];
   const Vec3 velocity = (moved - clip_moved) / kTickSeconds;

@@ -34,8 +34,6 @@ class Feet {
   // What is shown in the next tick, and what replaces it (Playback::amend).
   void show(const WorldPose& world);
   void amend(const WorldPose& world);
-  // They go on from where they are shown, not from where they were to be.
-  void lead_from_shown();
 
   // A foot that stands `offset`, m on the ground, off where it was led.
   void stand_aside(Side side, Vec3 offset);

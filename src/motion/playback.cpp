@@ -176,7 +176,6 @@ const Pose& Playback::next_simulated(const Pose& pose) {
   rotation_.fill({});
   show(pose);
   simulated_ = true;
-  feet_.lead_from_shown();
   return shown_;
 }
 

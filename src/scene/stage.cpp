@@ -198,10 +198,14 @@ void Stage::show(Tick tick) {
 // as far as it was shown there. Legs bear the body: theirs do not slow while they stand.
 void Stage::free_joints(Actor& actor, Tick tick) const {
   const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
-  if (actor.motion.simulated) actor.free = limit_excesses(actor.motion.playback.shown());
+  const Playback& playback = actor.motion.playback;
   const bool seam = actor.motion.simulated || actor.seam;
+  if (seam) {
+    actor.free =
+        limit_excesses(actor.motion.simulated ? playback.shown() : playback.shown_before());
+  }
   actor.seam = false;
-  const FootContacts held = actor.motion.playback.held();
+  const FootContacts held = playback.held();
   for (const Side side : {Side::left, Side::right}) {
     float& share = actor.swings[static_cast<std::size_t>(side)];
     share = std::clamp(share + (held.of(side) ? -kLegSlowsBy : kLegSlowsBy), 0.0f, 1.0f);
