@@ -305,6 +305,37 @@ TEST(Playback, AFootLeftBehindTakesAStepAndArrives) {
   EXPECT_LT(velocity_jump(shown), kAddedJump);
 }
 
+// What holds a foot off its way (the range of its leg, another body) is not there any more once a
+// new motion has begun from what is shown.
+TEST(Playback, AStepThatWasHeldOffItsWayGoesOnFromWhereItIsShown) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, idle, {}, 30, shown);
+  const Placement there{0.1f, 0.12f, 0.3f};
+  playback.stitch(placed(idle.at(0), there), placed(idle.at(1), there));
+  constexpr Tick kHeldOff = 14;
+  float lifted = 0;
+  for (Tick t = 0; t < kHeldOff; ++t) {
+    Pose pose = playback.next(placed(idle.at(t), there), idle.contacts_at(t));
+    const float off = .04f * glm::smoothstep(0.0f, 1.0f, static_cast<float>(t) / kHeldOff);
+    for (const Side side : kSides) {
+      if (playback.held().of(side)) continue;
+      const WorldPose world = world_pose(kSkeleton, pose);
+      lifted = std::max(lifted, world.position[index(toes(side))].y - kSkeleton.toe_height());
+      const Vec3 ankle = world.position[index(leg(side).end)];
+      move_limb_end(kSkeleton, leg(side), ankle + kUp * off, 1, pose);
+      set_world_rotation(kSkeleton, leg(side).end, world.rotation[index(leg(side).end)], pose);
+    }
+    playback.amend(pose);
+    shown.add(playback);
+  }
+  ASSERT_GT(lifted, .03f);
+  play(playback, idle, {0.08f, 0.1f, 0.2f}, 150, shown);
+  EXPECT_LT(velocity_jump(shown, 30 + kHeldOff, 30 + kHeldOff + 6), kAddedJump);
+  EXPECT_LT(held_motion(shown), kStill);
+}
+
 TEST(Playback, AFootThatIsNearEnoughStaysWhereItIs) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   Playback playback(kSkeleton);
