@@ -201,15 +201,18 @@ void Playback::set_shown(const Pose& pose) {
 }
 
 // Led by the hand, the elbow of an arm that comes from a simulation would turn over, and so would
-// one whose hand passes nearer to its shoulder than it is before and after.
+// one that is bent before and after, or whose hand passes nearer to its shoulder than it is then.
 bool Playback::arm_by_joints(Side side, const Pose& now) const {
   if (simulated_) return true;
   constexpr float kPassesNear = .8f;
+  constexpr float kBent = .68f;  // of the arm's length: a hand so near to its shoulder
   const auto hand = [&](const Pose& pose) {
     const WorldPose world = world_pose(skeleton_, pose);
     return world.position[index(arm(side).end)] - world.position[index(arm(side).root)];
   };
   const Vec3 from = hand(shown_), to = hand(now), way = to - from;
+  const float length = skeleton_.bone(arm(side).middle) + skeleton_.bone(arm(side).end);
+  if (std::max(glm::length(from), glm::length(to)) < kBent * length) return true;
   const float share =
       std::clamp(-glm::dot(from, way) / std::max(1e-6f, glm::dot(way, way)), 0.0f, 1.0f);
   return glm::length(from + share * way) <
