@@ -98,6 +98,8 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
   actor.seam = true;
   actor.kept_out = {};  // what is shown is where the new motion starts from
+  const Playback& playback = actor.motion.playback;
+  if (playback.started() && !actor.motion.simulated) actor.free = limit_excesses(playback.shown());
   actor.motion.gives = {};
   actor.motion.landed = {};
   if (actor.simulated.empty()) {
@@ -200,10 +202,7 @@ void Stage::free_joints(Actor& actor, Tick tick) const {
   const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
   const Playback& playback = actor.motion.playback;
   const bool seam = actor.motion.simulated || actor.seam;
-  if (seam) {
-    actor.free =
-        limit_excesses(actor.motion.simulated ? playback.shown() : playback.shown_before());
-  }
+  if (actor.motion.simulated) actor.free = limit_excesses(playback.shown());
   actor.seam = false;
   const FootContacts held = playback.held();
   for (const Side side : {Side::left, Side::right}) {
