@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "motion/ik.h"
-#include "motion/joint_turns.h"
 
 namespace ringcraft {
 
@@ -41,7 +40,7 @@ constexpr float kLying = 0.6f;            // of the leg's length: hips lower tha
 constexpr float kCrouched = 0.4f;         // of the leg's length: nor lower than that
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
 
-constexpr std::array<Side, 2> kFeet = {Side::left, Side::right};
+constexpr std::array<Side, 2> kEachFoot = {Side::left, Side::right};
 
 Vec3 on_ground(Vec3 v) {
   return {v.x, 0, v.z};
@@ -83,7 +82,7 @@ void Feet::stitch(const Seam& seam) {
   after_simulation_ = seam.simulated;
   blend_seconds_ = seam.seconds;
   sink_ = {};  // what the hips had sunk is part of their offset now
-  for (const Side side : kFeet) stitch_foot(side, seam);
+  for (const Side side : kEachFoot) stitch_foot(side, seam);
 }
 
 void Feet::let_go() {
@@ -113,7 +112,7 @@ void Feet::show(const WorldPose& world) {
 
 void Feet::amend(const WorldPose& world) {
   hips_height_ = world.position[index(Joint::hips)].y;
-  for (const Side side : kFeet) {
+  for (const Side side : kEachFoot) {
     of(side).ball = world.position[index(toes(side))];
     of(side).shown = world.rotation[index(leg(side).end)];
   }
@@ -374,7 +373,7 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
   float needed = 0;
   since_step_ += kTickSeconds;
   // 1. Where the feet go, and how far the hips must sink so that those that carry are in reach.
-  for (const Side side : kFeet) {
+  for (const Side side : kEachFoot) {
     const auto i = static_cast<std::size_t>(side);
     Foot& foot = feet_[i];
     const std::size_t ball = index(toes(side)), end = index(leg(side).end);
@@ -410,7 +409,7 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
   sink_.follow(needed);
   pose.hips.y -= sink_.value;
   // 2. The legs follow.
-  for (const Side side : kFeet) {
+  for (const Side side : kEachFoot) {
     const auto i = static_cast<std::size_t>(side);
     const Limb limb = leg(side);
     move_limb_end(skeleton_, limb, ankle[i], straightest[i], pose);
