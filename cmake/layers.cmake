@@ -18,9 +18,11 @@ find_package(tomlplusplus QUIET)
 add_library(ringcraft_flags INTERFACE)
 target_include_directories(ringcraft_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
 target_compile_features(ringcraft_flags INTERFACE cxx_std_20)
-# Same inputs, same bytes: no contraction of a*b+c, never -ffast-math.
+# Same inputs, same bytes: no contraction of a*b+c, never -ffast-math. Nobody asks for errno
+# or floating-point traps: a square root is one instruction then, and a loop may do four at once.
 target_compile_options(ringcraft_flags INTERFACE
-  -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror
+  -ffp-contract=off -fno-math-errno -fno-trapping-math)
 target_compile_definitions(ringcraft_flags INTERFACE
   RINGCRAFT_SOURCE_ASSETS="${CMAKE_SOURCE_DIR}/assets" RINGCRAFT_VERSION="${PROJECT_VERSION}")
 if(RINGCRAFT_SANITIZE)

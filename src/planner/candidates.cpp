@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "planner/bearings.h"
 #include "planner/duel.h"
 
 namespace ringcraft {
@@ -33,29 +34,21 @@ double protects(DefenseKind kind, TargetZone zone) {
   return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
 }
 
-constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
+constexpr float kMostGap = .28f;    // m before a body at which a blow reaches nothing any more
+constexpr float kMostPast = .75f;   // m behind it
+constexpr float kMostAside = .40f;  // m beside it
+constexpr double kNoRopes = 1e6;    // m: so far away that nobody comes near them
+constexpr double kFeintWorth = 3;   // points of the blow that follows, where the feint is answered
 
-const float kSineAttack = std::sin(kMostAttackAim), kCosineAttack = std::cos(kMostAttackAim);
-const float kSineOther = std::sin(kMostAim), kCosineOther = std::cos(kMostAim);
+const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
+const AimLimit kOtherLimit{std::sin(kMostAim), std::cos(kMostAim)};
 
-// `v` seen after turning by the aim that points +Z at `target`, clamped.
-struct Aim {
-  float sine = 0, cosine = 1;
-  Aim(Vec3 target, bool attack) {
-    const float most_sine = attack ? kSineAttack : kSineOther;
-    const float most_cosine = attack ? kCosineAttack : kCosineOther;
-    const float length = std::sqrt(target.x * target.x + target.z * target.z);
-    if (length < 1e-5f) return;
-    sine = target.x / length;
-    cosine = target.z / length;
-    if (cosine < most_cosine) {
-      sine = target.x < 0 ? -most_sine : most_sine;
-      cosine = most_cosine;
-    }
-  }
-  Vec3 into(Vec3 v) const { return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z}; }
-  Vec3 out(Vec3 v) const { return {cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x}; }
-};
+// Its yaw is not asked for.
+Frame frame_of(float x, float z, float sine, float cosine) {
+  Frame frame;
+  frame.x = x, frame.z = z, frame.sine = sine, frame.cosine = cosine;
+  return frame;
+}
 
 float falling(float x, float from, float to) {  // 1 up to `from`, 0 from `to` on
   return std::clamp((to - x) / (to - from), 0.0f, 1.0f);
@@ -65,7 +58,29 @@ float falling(float x, float from, float to) {  // 1 up to `from`, 0 from `to` o
 float reaching(const StrikeTable& strike, Vec3 target) {
   const float gap = target.z - strike.landing.z;
   const float aside = std::abs(target.x - 0.5f * strike.landing.x);
-  return falling(gap, 0.08f, 0.28f) * falling(-gap, 0.45f, 0.75f) * falling(aside, 0.15f, 0.40f);
+  return falling(gap, 0.08f, kMostGap) * falling(-gap, 0.45f, kMostPast) *
+         falling(aside, 0.15f, kMostAside);
+}
+
+// Whether any strike of it can reach a body that comes as near as `distance`.
+bool may_reach(const NextAction& next, float distance) {
+  const float ahead = std::max(next.lands_ahead + kMostGap, kMostPast - next.lands_short);
+  const float aside = 0.5f * next.lands_aside + kMostAside;
+  return distance <= 0 || distance * distance <= ahead * ahead + aside * aside;
+}
+
+// m: how far a root goes at most from where it is at `now`, from then on.
+float roams_from(const InFlight& flight, Tick now) {
+  constexpr float kRounding = 0.001f;
+  if (now < flight.aimed_from && flight.launch.aim != 0) return 1e3f;  // it is turning
+  const ActionTable& table = *flight.table;
+  const Placement& here = table.root_at(flight.age(now));
+  float farthest = 0;
+  for (Tick age = std::max(0, flight.age(now)); age <= table.length; ++age) {
+    const float x = table.root_at(age).x - here.x, z = table.root_at(age).z - here.z;
+    farthest = std::max(farthest, x * x + z * z);
+  }
+  return std::sqrt(farthest) + kRounding;
 }
 
 // How likely the opponent is, by what was seen of it, to answer what looks like an attack with a
@@ -103,7 +118,8 @@ Class class_of(Kind kind) {
 struct Duel::Aspect {
   struct Threat {  // a strike of the opponent that is still to come
     Tick begin = 0, end = 0;
-    Vec3 from{}, to{};  // its line on the ground, world
+    Vec3 from{}, line{};  // its way on the ground, world
+    float length = 0;     // m: of the line
     TargetZone zone = TargetZone::head;
     double worth = 0;  // points it would cost
   };
@@ -116,86 +132,90 @@ struct Duel::Aspect {
   Tick now = 0;         // when the candidate starts: after its path
   Frame end;            // the own root
   Vec3 opponent_now{};  // world
+  float roams = 0;      // m: how far the opponent goes at most from there
   double rate_now = 0;  // F_loc
-  double ring_half = 0;
+  double ropes_half = 0;  // m from the middle to the ropes
   std::vector<Threat> threats;
 
   Vec3 opponent_at(Tick tick) const {
-    return tick >= opponent_still ? opponent_then : opponent->root_at(tick).position();
+    if (tick >= opponent_still) return opponent_then;
+    return opponent->frame_at(tick).to_outer(
+        opponent->table->root_at(opponent->age(tick)).position());
   }
-  double ropes(Vec3 at) const {
-    return ring_half > 0 ? ring_half - static_cast<double>(std::max(std::abs(at.x), std::abs(at.z)))
-                         : 1e3;
-  }
-  double protection(const ActionTable& table, const Frame& start, const Aim& aim) const;
-  struct Ending {        // where the candidate leaves its fighter
-    Vec3 root{};         // world
-    float distance = 0;  // to the opponent's root by then, m
-    float cosine = 1;    // of the opponent's bearing off the facing
-  };
-  Ending ending(const NextAction& next, const Frame& start, const Aim& aim) const;
-  double location(const NextAction& next, const Ending& end) const;
-  double attack(const ActionTable& table, ActionId id, const Frame& start, const Aim& aim) const;
+  // Adds the points that each candidate is expected to save of what is in flight against it.
+  void add_protection(std::span<const NextAction> next, std::span<const BearingLanes> bearings,
+                      Tick node_now, std::vector<double>& points) const;
+  std::array<double, kLanes> rates(const BearingLanes& bearing) const;  // F_loc at the ends
+  double location(const NextAction& next, double rate) const;
+  double attack(const ActionTable& table, ActionId id, const Frame& start, const Frame& aim) const;
 };
 
-// Points that the candidate is expected to save of what is in flight against the fighter.
-double Duel::Aspect::protection(const ActionTable& table, const Frame& start,
-                                const Aim& aim) const {
-  const Action& action = *table.action;
-  double saved = 0;
+void Duel::Aspect::add_protection(std::span<const NextAction> next,
+                                  std::span<const BearingLanes> bearings, Tick node_now,
+                                  std::vector<double>& points) const {
   for (const Threat& threat : threats) {
-    double share = 0;
-    if (action.defense) {
-      const Tick begin = std::max(threat.begin, now + action.defense->begin);
-      const Tick end = std::min(threat.end, now + action.defense->end);
-      const double whole = std::max<Tick>(1, threat.end - threat.begin);
-      share =
-          protects(action.defense->kind, threat.zone) * std::clamp((end - begin) / whole, 0.0, 1.0);
+    const Tick middle = (threat.begin + threat.end) / 2;
+    const double whole = std::max<Tick>(1, threat.end - threat.begin);
+    for (std::size_t block = 0; block < bearings.size(); ++block) {
+      const BearingLanes& bearing = bearings[block];
+      const std::size_t first = block * kLanes, count = std::min(kLanes, next.size() - first);
+      // Where the body will have gone when the blow comes.
+      Lanes root_x{}, root_z{}, away;
+      for (std::size_t i = 0; i < count; ++i) {
+        const NextAction& one = next[first + i];
+        const Placement& root = one.table->root_at(middle - node_now - one.lead);
+        root_x[i] = root.x, root_z[i] = root.z;
+      }
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const float turned_x = bearing.aim_cosine[i] * root_x[i] + bearing.aim_sine[i] * root_z[i];
+        const float turned_z = bearing.aim_cosine[i] * root_z[i] - bearing.aim_sine[i] * root_x[i];
+        const float sine = bearing.start_sine[i], cosine = bearing.start_cosine[i];
+        const float x = bearing.start_x[i] + cosine * turned_x + sine * turned_z - threat.from.x;
+        const float z = bearing.start_z[i] - sine * turned_x + cosine * turned_z - threat.from.z;
+        const float along = (x * threat.line.x + z * threat.line.z) / threat.length;
+        const float across = std::abs(x * threat.line.z - z * threat.line.x) / threat.length;
+        away[i] = std::max(1 - falling(along - threat.length, 0.08f, 0.28f),
+                           1 - falling(across, 0.1f, 0.35f));
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        const NextAction& one = next[first + i];
+        double share = static_cast<double>(away[i]);
+        if (const auto& defense = one.table->action->defense) {
+          const Tick start = node_now + one.lead;
+          const Tick begin = std::max(threat.begin, start + defense->begin);
+          const Tick end = std::min(threat.end, start + defense->end);
+          share = std::max(share, protects(defense->kind, threat.zone) *
+                                      std::clamp((end - begin) / whole, 0.0, 1.0));
+        }
+        points[first + i] += threat.worth * share;
+      }
     }
-    // Where the body will have gone when the blow comes.
-    const Placement& root = table.root_at((threat.begin + threat.end) / 2 - now);
-    const Vec3 at = start.to_outer(aim.out(root.position()));
-    const Vec3 line = threat.to - threat.from;
-    const float length = std::max(1e-3f, std::sqrt(line.x * line.x + line.z * line.z));
-    const float along =
-        ((at.x - threat.from.x) * line.x + (at.z - threat.from.z) * line.z) / length;
-    const float across =
-        std::abs((at.x - threat.from.x) * line.z - (at.z - threat.from.z) * line.x) / length;
-    const float away =
-        std::max(1 - falling(along - length, 0.08f, 0.28f), 1 - falling(across, 0.1f, 0.35f));
-    saved += threat.worth * std::max(share, static_cast<double>(away));
   }
-  return saved;
 }
 
-Duel::Aspect::Ending Duel::Aspect::ending(const NextAction& next, const Frame& start,
-                                          const Aim& aim) const {
-  Ending end;
-  end.root = start.to_outer(aim.out({next.end.x, 0, next.end.z}));
-  const Vec3 then = opponent_at(now + next.length) - end.root;
-  end.distance = std::sqrt(then.x * then.x + then.z * then.z);
-  // Facing at the end: the start's, turned by the aim and by the clip.
-  const Vec3 ahead = aim.out({next.end.sine, 0, next.end.cosine});
-  const float facing_x = start.cosine * ahead.x + start.sine * ahead.z;
-  const float facing_z = start.cosine * ahead.z - start.sine * ahead.x;
-  if (end.distance > 1e-4f) end.cosine = (then.x * facing_x + then.z * facing_z) / end.distance;
-  return end;
+std::array<double, kLanes> Duel::Aspect::rates(const BearingLanes& bearing) const {
+  std::array<double, kLanes> rates;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float out = std::max(std::abs(bearing.x[i]), std::abs(bearing.z[i]));
+    rates[i] = location_rate(own->weights, bearing.apart[i], bearing.facing[i],
+                             ropes_half - static_cast<double>(out));
+  }
+  return rates;
 }
 
-double Duel::Aspect::location(const NextAction& next, const Ending& end) const {
-  const double rate = location_rate(own->weights, end.distance, end.cosine, ropes(end.root));
+double Duel::Aspect::location(const NextAction& next, double rate) const {
   const double length = seconds(next.lead + next.length);
   return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
 }
 
 double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& start,
-                            const Aim& aim) const {
+                            const Frame& aim) const {
   if (opponent_down) return 0;
   double points = 0;
   for (std::size_t i = 0; i < table.strikes.size(); ++i) {
     const StrikeTable& strike = table.strikes[i];
     const Tick tick = now + strike.landing_tick;
-    const Vec3 target = aim.into(start.to_inner(opponent_at(tick)));
+    const Vec3 target = aim.to_inner(start.to_inner(opponent_at(tick)));
     const float reach = reaching(strike, target);
     if (reach <= 0) continue;
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
@@ -214,10 +234,12 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   aspect.opponent_down = other.balance == 2 && !setup_->settings.hits_on_downed;
   aspect.end = Frame(self.flight.root_at(node.now));
   aspect.opponent_now = other.flight.root_at(node.now).position();
+  aspect.roams = roams_from(other.flight, node.now);
   aspect.opponent_still =
       std::max(other.flight.aimed_from, other.flight.launch.start + other.flight.table->length);
   aspect.opponent_then = other.flight.root_at(aspect.opponent_still).position();
-  aspect.ring_half = setup_->settings.ring_half_m;
+  const double ring_half = setup_->settings.ring_half_m;
+  aspect.ropes_half = ring_half > 0 ? ring_half : kNoRopes;
   const Tick age = node.now - other.flight.launch.start;
   aspect.late =
       other.flight.table->action->attacks() && age < ticks(aspect.own->style->late_sight_s);
@@ -225,7 +247,9 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
-  aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, aspect.ropes(at_now));
+  const double to_ropes =
+      aspect.ropes_half - static_cast<double>(std::max(std::abs(at_now.x), std::abs(at_now.z)));
+  aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, to_ropes);
 
   const SideSetup& their = side(1 - who);
   const Launch& launch = other.flight.launch;
@@ -239,7 +263,8 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     threat.begin = launch.start + strike.strike.active_begin;
     threat.end = launch.start + strike.strike.active_end;
     threat.from = {frame.x, 0, frame.z};
-    threat.to = frame.to_outer(strike.landing);
+    threat.line = frame.to_outer(strike.landing) - threat.from;
+    threat.length = std::max(1e-3f, std::hypot(threat.line.x, threat.line.z));
     threat.zone = strike.strike.zone;
     threat.worth =
         aspect.own->weights.caution * hit_points(their.weights, strike.strike.kind,
@@ -267,23 +292,39 @@ void Duel::score_candidates(const Node& node, int who) {
             answers_attacks(*setup_->habits, own.tables->library(), std::hypot(apart.x, apart.z),
                             other.table->action->kind);
   }
-  for (const NextAction& next : self.flight.table->next) {
+  const std::span<const NextAction> all = self.flight.table->next;
+  const std::span<const NextLanes> lanes = self.flight.table->next_lanes;
+  then_x_.resize(lanes.size()), then_z_.resize(lanes.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Vec3 then = aspect.opponent_at(node.now + all[i].lead + all[i].length);
+    then_x_[i / kLanes][i % kLanes] = then.x, then_z_[i / kLanes][i % kLanes] = then.z;
+  }
+  find_bearings(lanes, aspect.end, aspect.opponent_now, kAttackLimit, kOtherLimit, then_x_, then_z_,
+                bearings_);
+  saved_.assign(all.size(), 0);
+  aspect.add_protection(all, bearings_, node.now, saved_);
+  std::array<double, kLanes> rates;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const NextAction& next = all[i];
+    const BearingLanes& bearing = bearings_[i / kLanes];
+    const std::size_t lane = i % kLanes;
+    if (lane == 0) rates = aspect.rates(bearing);
     if (aspect.late && next.particular) continue;
     aspect.now = node.now + next.lead;
-    const Frame start = aspect.end * next.alignment;
-    // The aim of an attack points its start at the opponent, that of anything else its end.
-    Vec3 target = start.to_inner(aspect.opponent_now);
-    if (!next.attacks) target = next.end.to_inner(target);
-    const Aim aim(target, next.attacks);
-    const Aspect::Ending end = aspect.ending(next, start, aim);
-    double points = aspect.location(next, end) + 0.001 * own.launch[next.to.at()];
-    if (next.attacks) points += aspect.attack(*next.table, next.to, start, aim);
-    if (!aspect.threats.empty()) points += aspect.protection(*next.table, start, aim);
-    const Scored one{thousandths(points), next.kind, &next, false, end.distance};
-    if (setup_->settings.prune.back_turned && end.cosine < kCosineBack) {
+    double points = aspect.location(next, rates[lane]) + 0.001 * own.launch[next.to.at()];
+    if (next.attacks && may_reach(next, bearing.target[lane] - aspect.roams)) {
+      const Frame start = frame_of(bearing.start_x[lane], bearing.start_z[lane],
+                                   bearing.start_sine[lane], bearing.start_cosine[lane]);
+      const Frame aim = frame_of(0, 0, bearing.aim_sine[lane], bearing.aim_cosine[lane]);
+      points += aspect.attack(*next.table, next.to, start, aim);
+    }
+    points += saved_[i];
+    const Scored one{thousandths(points), next.kind, &next, false, bearing.apart[lane]};
+    const float facing = bearing.facing[lane];
+    if (setup_->settings.prune.back_turned && facing < kCosineBack) {
       ++counts_.back_turned;
       if (turned_ != nullptr) turned_->push_back(next.to);
-      if (end.cosine > least_turned) least_turned = end.cosine, spare = one;
+      if (facing > least_turned) least_turned = facing, spare = one;
     } else {
       scored_[count++] = one;
     }

@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "planner/bearings.h"
 #include "planner/evaluation.h"
 #include "planner/habits.h"
 #include "planner/impact_memo.h"
@@ -222,6 +223,9 @@ class Duel {
     float apart;  // m: how far the roots are apart when it is over
   };
   std::vector<Scored> scored_, picked_, foreseen_;  // of moves()
+  std::vector<NextLanes::Lanes> then_x_, then_z_;   // world: the opponent's root when each is over
+  std::vector<BearingLanes> bearings_;
+  std::vector<double> saved_;  // points, of each that may follow
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);

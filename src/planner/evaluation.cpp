@@ -6,11 +6,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr double kLeastNearness = -3.0;   // g(d) never falls below
-constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
-constexpr double kOverlapCost = 10.0;     // points/s per metre
-constexpr double kRopesNear = 0.8;        // m
-constexpr double kBoredDistance = 0.9;    // m: boredom brings d* down to here
+constexpr double kBoredDistance = 0.9;  // m: boredom brings d* down to here
 
 }  // namespace
 
@@ -37,14 +33,6 @@ Weights weights_at(const Style& style, double quiet) {
     if (found != style.strikes.end()) w.strikes[i] = found->second;
   }
   return w;
-}
-
-double location_rate(const Weights& weights, double distance, double cosine, double to_ropes) {
-  double in_reach =
-      std::max(kLeastNearness, -std::abs(distance - weights.distance) / weights.sigma);
-  in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
-  const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
-  return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
 }
 
 double least_location_rate(const Weights& weights) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "motion/action.h"
@@ -36,9 +37,21 @@ struct Weights {
 // more and likes attacks better.
 Weights weights_at(const Style& style, double quiet);
 
+inline constexpr double kLeastNearness = -3.0;   // g(d) never falls below
+inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
+inline constexpr double kOverlapCost = 10.0;     // points/s per metre
+inline constexpr double kRopesNear = 0.8;        // m
+
 // F_loc as a rate, points/s: `distance` of the roots (m), `cosine` of the opponent's bearing off
 // the own facing, `to_ropes` from the own root to the nearest ropes (m).
-double location_rate(const Weights& weights, double distance, double cosine, double to_ropes);
+inline double location_rate(const Weights& weights, double distance, double cosine,
+                            double to_ropes) {
+  double in_reach =
+      std::max(kLeastNearness, -std::abs(distance - weights.distance) / weights.sigma);
+  in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
+  const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
+  return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
+}
 
 // The least that it can be; it is never above 0.
 double least_location_rate(const Weights& weights);

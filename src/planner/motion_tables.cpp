@@ -246,6 +246,25 @@ const NextAction* ActionTable::find_next(ActionId to) const {
   return nullptr;
 }
 
+namespace {
+
+std::vector<NextLanes> lanes_of(std::span<const NextAction> next) {
+  std::vector<NextLanes> blocks((next.size() + kLanes - 1) / kLanes);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    NextLanes& block = blocks[i / kLanes];
+    const std::size_t lane = i % kLanes;
+    const Frame &alignment = next[i].alignment, &end = next[i].end;
+    block.x[lane] = alignment.x, block.z[lane] = alignment.z;
+    block.sine[lane] = alignment.sine, block.cosine[lane] = alignment.cosine;
+    block.end_x[lane] = end.x, block.end_z[lane] = end.z;
+    block.end_sine[lane] = end.sine, block.end_cosine[lane] = end.cosine;
+    block.attacks[lane] = next[i].attacks ? 1.0f : 0.0f;
+  }
+  return blocks;
+}
+
+}  // namespace
+
 MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     : library_(library), body_(body) {
   const std::size_t whole = library.actions().size();
@@ -272,7 +291,9 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
       if (!library.action(edge.to).connects) continue;
       followers_[i].over.push_back(*next_action(ActionId(i), edge.to));
     }
+    followers_[i].next_lanes = lanes_of(followers_[i].next);
     table.next = followers_[i].next;
+    table.next_lanes = followers_[i].next_lanes;
     table.over = followers_[i].over;
   }
   for (const ActionId response : library.responses()) {
@@ -320,6 +341,7 @@ void MotionTables::add_parts(ActionId action) {
     for (Placement& root : part.root) root = mix(Placement{}, root, share);
     part.end = Frame(part.root.back());
     part.next = whole.next;
+    part.next_lanes = whole.next_lanes;
     part.over = whole.over;
     actions_.push_back(std::move(part));
   }
@@ -383,6 +405,11 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   next.length = table.length;
   next.end = table.end;
   next.table = &table;
+  for (const StrikeTable& strike : table.strikes) {
+    next.lands_ahead = std::max(next.lands_ahead, strike.landing.z);
+    next.lands_short = std::min(next.lands_short, strike.landing.z);
+    next.lands_aside = std::max(next.lands_aside, std::abs(strike.landing.x));
+  }
   const auto edge = [&](ActionId first, ActionId second) {
     return Frame(scaled(machine.edge(first, second)->alignment.placement, body_.scale));
   };

@@ -61,14 +61,26 @@ struct NextAction {
   ActionId to;
   Kind kind = Kind::idle;
   bool attacks = false;
-  bool particular = false;  // a defense that answers particular attacks
-  Tick lead = 0;            // length of the path
-  Tick length = 0;          // of `to`
+  bool particular = false;                 // a defense that answers particular attacks
+  Tick lead = 0;                           // length of the path
+  Tick length = 0;                         // of `to`
+  float lands_ahead = 0, lands_short = 0;  // m: the farthest and the shortest that its strikes land
+  float lands_aside = 0;                   // m: the farthest to either side
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
   Frame end;        // of `to`: ActionTable::end
   const ActionTable* table = nullptr;  // of `to`
   std::vector<ActionId> path;          // actions played in full before it; empty for a direct edge
 };
+
+// What of it says where it leads, of kLanes of them side by side; zeros behind the last.
+inline constexpr std::size_t kLanes = 8;
+struct NextLanes {
+  using Lanes = std::array<float, kLanes>;
+  Lanes x{}, z{}, sine{}, cosine{};                  // alignment
+  Lanes end_x{}, end_z{}, end_sine{}, end_cosine{};  // end
+  Lanes attacks{};                                   // 1 where it does
+};
+
 // The parts of a body as five groups of neighbours: trunk and head, arms, legs.
 inline constexpr std::size_t kGroups = 5;
 
@@ -95,8 +107,9 @@ struct ActionTable {
   Strides strides;              // of the same
   std::vector<float> way_left;  // of a response that stays up, one a tick, m
   ActionId get_up;              // of a fall: what follows it; invalid for anything else
-  std::span<const NextAction> next;  // what a fighter may choose after it, by index
-  std::span<const NextAction> over;  // what follows it only on the way to something else
+  std::span<const NextAction> next;       // what a fighter may choose after it, by index
+  std::span<const NextLanes> next_lanes;  // of `next`
+  std::span<const NextAction> over;       // what follows it only on the way to something else
 
   Tick clamped(Tick age) const { return age < 0 ? 0 : age > length ? length : age; }
   bool in_flight() const { return motion != 0; }
@@ -156,6 +169,7 @@ class MotionTables {
   std::vector<ActionTable> actions_;
   struct Followers {
     std::vector<NextAction> next, over;
+    std::vector<NextLanes> next_lanes;
   };
   std::vector<Followers> followers_;  // by action
   Tick lull_ = 0, longest_lead_ = 0;
