@@ -34,11 +34,11 @@ double protects(DefenseKind kind, TargetZone zone) {
   return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
 }
 
-constexpr float kMostGap = .28f;    // m before a body at which a blow reaches nothing any more
-constexpr float kMostPast = .75f;   // m behind it
-constexpr float kMostAside = .40f;  // m beside it
-constexpr double kNoRopes = 1e6;    // m: so far away that nobody comes near them
-constexpr double kFeintWorth = 3;   // points of the blow that follows, where the feint is answered
+// m: a body whose root is farther than this beyond where a blow lands, before it or beside it is
+// not reached.
+constexpr float kMostGap = .28f, kMostPast = .75f, kMostAside = .40f;
+constexpr double kNoRopes = 1e6;   // m: so far away that nobody comes near them
+constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
 const AimLimit kOtherLimit{std::sin(kMostAim), std::cos(kMostAim)};
@@ -64,7 +64,7 @@ float reaching(const StrikeTable& strike, Vec3 target) {
 
 // Whether any strike of it can reach a body that comes as near as `distance`.
 bool may_reach(const NextAction& next, float distance) {
-  const float ahead = std::max(next.lands_ahead + kMostGap, kMostPast - next.lands_short);
+  const float ahead = std::max(next.lands_ahead + kMostGap, kMostPast - next.lands_behind);
   const float aside = 0.5f * next.lands_aside + kMostAside;
   return distance <= 0 || distance * distance <= ahead * ahead + aside * aside;
 }

@@ -407,7 +407,7 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   next.table = &table;
   for (const StrikeTable& strike : table.strikes) {
     next.lands_ahead = std::max(next.lands_ahead, strike.landing.z);
-    next.lands_short = std::min(next.lands_short, strike.landing.z);
+    next.lands_behind = std::min(next.lands_behind, strike.landing.z);
     next.lands_aside = std::max(next.lands_aside, std::abs(strike.landing.x));
   }
   const auto edge = [&](ActionId first, ActionId second) {

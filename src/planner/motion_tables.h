@@ -61,11 +61,11 @@ struct NextAction {
   ActionId to;
   Kind kind = Kind::idle;
   bool attacks = false;
-  bool particular = false;                 // a defense that answers particular attacks
-  Tick lead = 0;                           // length of the path
-  Tick length = 0;                         // of `to`
-  float lands_ahead = 0, lands_short = 0;  // m: the farthest and the shortest that its strikes land
-  float lands_aside = 0;                   // m: the farthest to either side
+  bool particular = false;  // a defense that answers particular attacks
+  Tick lead = 0;            // length of the path
+  Tick length = 0;          // of `to`
+  // m: the least box on the ground that holds the origin and where each of its strikes lands.
+  float lands_ahead = 0, lands_behind = 0, lands_aside = 0;
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
   Frame end;        // of `to`: ActionTable::end
   const ActionTable* table = nullptr;  // of `to`

@@ -589,6 +589,32 @@ TEST_F(DuelTest, TheFarthestStepIsAmongTheCandidates) {
   }
 }
 
+// Who is out of reach now but steps in is struck at: where it will be counts, not where it is.
+TEST_F(DuelTest, AnAttackIsWeighedByWhereTheOpponentWillBe) {
+  Style style;
+  style.candidates = 100;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;  // only blows have a worth
+  set_style(style);
+  const auto leads_with_an_attack = [&](const FightState& state) {
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, state), moves);
+    return library().action(moves.front().action).attacks();
+  };
+  int near = 0, comes = 0;
+  for (float distance = 0.8f; distance < 2.4f; distance += 0.05f) {
+    FightState state = facing(distance, 36);
+    const bool still = leads_with_an_attack(state);
+    state.fighters[1].launch = launch("step_fore", 0, {0, distance / 2, kPi});
+    const bool stepping = leads_with_an_attack(state);
+    near += still ? 1 : 0;
+    comes += stepping && !still ? 1 : 0;
+    EXPECT_TRUE(distance < 1.6f || !still) << distance;
+  }
+  EXPECT_GT(near, 3);
+  EXPECT_GT(comes, 3);
+}
+
 TEST_F(DuelTest, ShowingTheBackIsPrunedButSomethingIsAlwaysLeft) {
   Style style;
   style.candidates = 40;
