@@ -1,6 +1,7 @@
 #include "physics/contact.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "physics/penetration.h"
@@ -14,6 +15,8 @@ constexpr float kFarther = 1e-3f;  // m: more than rounding
 // A guard that is met at most this far behind the target (m of the striker's way) still takes the
 // blow: glove and forearm are soft and wider than their capsules.
 constexpr float kGuardReach = 0.02f;
+
+constexpr std::uint32_t kAllParts = (1u << kPartCount) - 1;
 
 constexpr std::uint32_t bit(Part part) {
   return 1u << index(part);
@@ -34,9 +37,9 @@ Vec3 displacement(const Capsule& before, const Capsule& after, const Capsule& no
 
 // First touch of two moving capsules by conservative advancement: the gap cannot close faster than
 // both travel.
-std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, const SweptBody& target,
+std::optional<Contact> first_touch(const SweptPart& striker, const SweptTarget& target,
                                    Part struck) {
-  const Capsule &s0 = attacker.before[index(striker)], &s1 = attacker.after[index(striker)];
+  const Capsule &s0 = striker.before, &s1 = striker.after;
   const Capsule &t0 = target.before[index(struck)], &t1 = target.after[index(struck)];
   const float closing = travel(s0, s1) + travel(t0, t1);
   const float reach = s0.radius + t0.radius;
@@ -58,15 +61,32 @@ std::optional<Contact> first_touch(const SweptBody& attacker, Part striker, cons
   }
   Contact c;
   const Vec3 moved = displacement(s0, s1, s, d.on_first) - displacement(t0, t1, t, d.on_second);
-  c.velocity = moved / attacker.seconds;
+  c.velocity = moved / target.seconds;
   c.normal = normalized_or(d.on_first - d.on_second, normalized_or(-moved, kUp));
   if (glm::dot(c.velocity, c.normal) >= 0) return std::nullopt;  // slides past or draws away
-  c.striker = striker;
+  c.striker = striker.part;
   c.struck = struck;
   c.blocked = (target.guards & bit(struck)) != 0;
   c.point = d.on_second + c.normal * t0.radius;
   c.share = share;
   return c;
+}
+
+// A guard that is met together with what is behind it takes the blow.
+std::optional<Contact> part_contact(const SweptPart& striker, const SweptTarget& target,
+                                    std::uint32_t target_parts) {
+  std::optional<Contact> hit, block;
+  for (std::uint32_t left = target_parts & kAllParts; left != 0; left &= left - 1) {
+    const Part part = part_at(static_cast<std::size_t>(std::countr_zero(left)));
+    const auto c = first_touch(striker, target, part);
+    if (!c) continue;
+    auto& best = c->blocked ? block : hit;
+    if (!best || c->share < best->share) best = c;
+  }
+  if (!hit) return block;
+  if (!block) return hit;
+  const float way = travel(striker.before, striker.after);
+  return (block->share - hit->share) * way <= kGuardReach ? block : hit;
 }
 
 }  // namespace
@@ -93,34 +113,28 @@ std::uint32_t guarding_parts(const Action& action, Tick age) {
   return parts;
 }
 
-float travel(const Capsule& before, const Capsule& after) {
-  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
-}
-
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
-                                      const SweptBody& target, std::uint32_t target_parts) {
-  std::optional<Contact> hit, block;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (((target_parts >> i) & 1u) == 0) continue;
-    const Part part = part_at(i);
-    const auto c = first_touch(attacker, striker, target, part);
-    if (!c) continue;
-    auto& best = c->blocked ? block : hit;
-    if (!best || c->share < best->share) best = c;
-  }
-  if (!hit) return block;
-  if (!block) return hit;
-  const float way = travel(attacker.before[index(striker)], attacker.after[index(striker)]);
-  return (block->share - hit->share) * way <= kGuardReach ? block : hit;
+                                      const SweptBody& target) {
+  const SweptPart part{striker, attacker.before[index(striker)], attacker.after[index(striker)]};
+  return part_contact(part, target, ~0u);
 }
 
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
-                                      const SweptBody& target, std::uint32_t target_parts) {
-  const std::uint32_t parts = striking_parts(strike);
+                                      const SweptBody& target) {
+  std::array<SweptPart, kMostStrikingParts> limb;
+  std::size_t count = 0;
+  for (std::uint32_t left = striking_parts(strike); left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    limb[count++] = {part_at(i), attacker.before[i], attacker.after[i]};
+  }
+  return strike_contact({limb.data(), count}, target);
+}
+
+std::optional<Contact> strike_contact(std::span<const SweptPart> limb, const SweptTarget& target,
+                                      std::uint32_t target_parts) {
   std::optional<Contact> first;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (!((parts >> i) & 1u)) continue;
-    const auto c = strike_contact(attacker, part_at(i), target, target_parts);
+  for (const SweptPart& part : limb) {
+    const auto c = part_contact(part, target, target_parts);
     if (c && (!first || c->share < first->share)) first = c;
   }
   return first;

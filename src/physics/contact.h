@@ -1,7 +1,10 @@
 #pragma once
 // Strike contact: the swept capsule of the striking part against the body parts, guard first.
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
 
 #include "motion/action.h"
 #include "physics/body.h"
@@ -20,6 +23,26 @@ struct SweptBody {
   std::uint32_t guards = guarding_parts();
 };
 
+// A part of a striking limb at two neighbouring moments.
+struct SweptPart {
+  Part part = Part::right_hand;
+  Capsule before, after;
+};
+
+// What a blow may meet: a swept body, wherever its capsules are kept.
+struct SweptTarget {
+  const BodyCapsules& before;
+  const BodyCapsules& after;
+  float seconds;
+  std::uint32_t guards;
+
+  SweptTarget(const BodyCapsules& was, const BodyCapsules& is, std::uint32_t guarding,
+              float between = 1.0f / 120.0f)
+      : before(was), after(is), seconds(between), guards(guarding) {}
+  SweptTarget(const SweptBody& body)  // NOLINT(google-explicit-constructor): a view of it
+      : before(body.before), after(body.after), seconds(body.seconds), guards(body.guards) {}
+};
+
 struct Contact {
   Part striker = Part::right_hand;
   Part struck = Part::head;  // the first part in the way, one that guards where blocked
@@ -31,17 +54,24 @@ struct Contact {
 };
 
 // The farthest that any point of the axis travels, m (ends move on straight lines).
-float travel(const Capsule& before, const Capsule& after);
+inline float travel(const Capsule& before, const Capsule& after) {
+  return std::max(glm::distance(before.a, after.a), glm::distance(before.b, after.b));
+}
 
 // First contact of `striker` with a part of the target in the interval, or nothing. A guard part in
 // the way is a block. Only an approaching striker makes contact.
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
-                                      const SweptBody& target, std::uint32_t target_parts = ~0u);
+                                      const SweptBody& target);
 
 // The same for whatever part of the limb the strike can land with (striking_parts): the earliest
-// one. Of the target, only `target_parts` (bit index(part)) are looked at.
+// one.
 std::optional<Contact> strike_contact(const SweptBody& attacker, const Strike& strike,
-                                      const SweptBody& target, std::uint32_t target_parts = ~0u);
+                                      const SweptBody& target);
+
+// The same for these parts of a limb. Of the target, only `target_parts` (bit index(part)) are
+// looked at.
+std::optional<Contact> strike_contact(std::span<const SweptPart> limb, const SweptTarget& target,
+                                      std::uint32_t target_parts = ~0u);
 
 // First contact of a falling body with another, by its trunk, its head, a thigh or an upper arm,
 // which itself moves toward the other at `least` m/s or faster: who walks into somebody that falls
@@ -51,6 +81,7 @@ std::optional<Contact> fall_contact(const SweptBody& faller, const SweptBody& ot
 // Parts a strike can land with, bit index(part): the glove; the foot; of a roundhouse the shin too.
 // To be excepted from penetration while the strike is active.
 std::uint32_t striking_parts(const Strike& strike);
+inline constexpr std::size_t kMostStrikingParts = 2;
 
 // Parts of a zone, bit index(part). Guard parts belong to none. Head: head and neck; body: trunk
 // and upper arms; leg: thighs, shins, feet.

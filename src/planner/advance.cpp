@@ -109,7 +109,8 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
   if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&
       victim.flight.table->action->defense) {
-    const std::int32_t full = attacker.clean_damage[event.attack.at()][event.strike];
+    const std::int32_t full =
+        attacker.clean_damage[event.blow.attack.table->first_strike + event.strike];
     credit(node, event.victim, defense_points(side(event.victim).weights, full - damage),
            Term::defense, event.tick);
   }
@@ -213,7 +214,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
       if (ground_distance(stood, {frame.x, 0, frame.z}, frame.to_outer(strike.landing)) >
           kBodyRadius)
         continue;
-      const std::int32_t full = side(i).clean_damage[flight.launch.action.at()][s];
+      const std::int32_t full = side(i).clean_damage[flight.table->first_strike + s];
       credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense, over);
       spend(attacker.flight.launch, s);
       if (events_ != nullptr) {

@@ -34,9 +34,6 @@ double protects(DefenseKind kind, TargetZone zone) {
   return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
 }
 
-// m: a body whose root is farther than this beyond where a blow lands, before it or beside it is
-// not reached.
-constexpr float kMostGap = .28f, kMostPast = .75f, kMostAside = .40f;
 constexpr double kNoRopes = 1e6;   // m: so far away that nobody comes near them
 constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
 
@@ -55,18 +52,11 @@ float falling(float x, float from, float to) {  // 1 up to `from`, 0 from `to` o
 }
 
 // How well a strike reaches a body that stands at `target` of the aimed action space.
-float reaching(const StrikeTable& strike, Vec3 target) {
-  const float gap = target.z - strike.landing.z;
-  const float aside = std::abs(target.x - 0.5f * strike.landing.x);
+float reaching(const StrikeAim& strike, Vec3 target) {
+  const float gap = target.z - strike.ahead;
+  const float aside = std::abs(target.x - 0.5f * strike.aside);
   return falling(gap, 0.08f, kMostGap) * falling(-gap, 0.45f, kMostPast) *
          falling(aside, 0.15f, kMostAside);
-}
-
-// Whether any strike of it can reach a body that comes as near as `distance`.
-bool may_reach(const NextAction& next, float distance) {
-  const float ahead = std::max(next.lands_ahead + kMostGap, kMostPast - next.lands_behind);
-  const float aside = 0.5f * next.lands_aside + kMostAside;
-  return distance <= 0 || distance * distance <= ahead * ahead + aside * aside;
 }
 
 // m: how far a root goes at most from where it is at `now`, from then on.
@@ -94,22 +84,6 @@ double answers_attacks(const Habits& habits, const MotionLibrary& library, float
   }
   const int total = habits.total(situation);
   return total == 0 ? 0 : Habits::belief(total) * defenses / total;
-}
-
-// Preference among kinds of one list.
-enum class Class { attack, defense, step, idle };
-Class class_of(Kind kind) {
-  switch (kind) {
-    case Kind::attack:
-    case Kind::combination:
-      return Class::attack;
-    case Kind::defense:
-      return Class::defense;
-    case Kind::idle:
-      return Class::idle;
-    default:
-      return Class::step;
-  }
 }
 
 }  // namespace
@@ -146,8 +120,8 @@ struct Duel::Aspect {
   void add_protection(std::span<const NextAction> next, std::span<const BearingLanes> bearings,
                       Tick node_now, std::vector<double>& points) const;
   std::array<double, kLanes> rates(const BearingLanes& bearing) const;  // F_loc at the ends
-  double location(const NextAction& next, double rate) const;
-  double attack(const ActionTable& table, ActionId id, const Frame& start, const Frame& aim) const;
+  double location(Tick length, double rate) const;
+  double attack(const NextAction& next, const Frame& start, const Frame& aim) const;
 };
 
 void Duel::Aspect::add_protection(std::span<const NextAction> next,
@@ -163,7 +137,7 @@ void Duel::Aspect::add_protection(std::span<const NextAction> next,
       Lanes root_x{}, root_z{}, away;
       for (std::size_t i = 0; i < count; ++i) {
         const NextAction& one = next[first + i];
-        const Placement& root = one.table->root_at(middle - node_now - one.lead);
+        const Placement& root = one.root_at(middle - node_now - one.lead);
         root_x[i] = root.x, root_z[i] = root.z;
       }
       for (std::size_t i = 0; i < kLanes; ++i) {
@@ -180,7 +154,7 @@ void Duel::Aspect::add_protection(std::span<const NextAction> next,
       for (std::size_t i = 0; i < count; ++i) {
         const NextAction& one = next[first + i];
         double share = static_cast<double>(away[i]);
-        if (const auto& defense = one.table->action->defense) {
+        if (const Defense* defense = one.defense) {
           const Tick start = node_now + one.lead;
           const Tick begin = std::max(threat.begin, start + defense->begin);
           const Tick end = std::min(threat.end, start + defense->end);
@@ -203,24 +177,24 @@ std::array<double, kLanes> Duel::Aspect::rates(const BearingLanes& bearing) cons
   return rates;
 }
 
-double Duel::Aspect::location(const NextAction& next, double rate) const {
-  const double length = seconds(next.lead + next.length);
+double Duel::Aspect::location(Tick length_ticks, double rate) const {
+  const double length = seconds(length_ticks);
   return 0.5 * (rate_now + rate) * length + rate * std::max(0.0, kLookAhead - length);
 }
 
-double Duel::Aspect::attack(const ActionTable& table, ActionId id, const Frame& start,
-                            const Frame& aim) const {
+double Duel::Aspect::attack(const NextAction& next, const Frame& start, const Frame& aim) const {
   if (opponent_down) return 0;
   double points = 0;
-  for (std::size_t i = 0; i < table.strikes.size(); ++i) {
-    const StrikeTable& strike = table.strikes[i];
-    const Tick tick = now + strike.landing_tick;
+  for (std::size_t i = 0; i < next.strikes.size(); ++i) {
+    const StrikeAim& strike = next.strikes[i];
+    const Tick tick = now + strike.tick;
     const Vec3 target = aim.to_inner(start.to_inner(opponent_at(tick)));
     const float reach = reaching(strike, target);
     if (reach <= 0) continue;
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
-    points += sure * static_cast<double>(reach) *
-              hit_points(own->weights, strike.strike.kind, own->clean_damage[id.at()][i], false);
+    points +=
+        sure * static_cast<double>(reach) *
+        hit_points(own->weights, strike.kind, own->clean_damage[next.first_strike + i], false);
   }
   return points;
 }
@@ -258,7 +232,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     const StrikeTable& strike = other.flight.table->strikes[i];
     if (i < 8 && ((launch.spent >> i) & 1u) != 0) continue;
     if (launch.start + strike.strike.active_end <= node.now) continue;
-    if (reaching(strike, frame.to_inner(at_now)) <= 0.2f) continue;
+    if (reaching(aim_of(strike), frame.to_inner(at_now)) <= 0.2f) continue;
     Aspect::Threat threat;
     threat.begin = launch.start + strike.strike.active_begin;
     threat.end = launch.start + strike.strike.active_end;
@@ -266,9 +240,9 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     threat.line = frame.to_outer(strike.landing) - threat.from;
     threat.length = std::max(1e-3f, std::hypot(threat.line.x, threat.line.z));
     threat.zone = strike.strike.zone;
-    threat.worth =
-        aspect.own->weights.caution * hit_points(their.weights, strike.strike.kind,
-                                                 their.clean_damage[launch.action.at()][i], false);
+    threat.worth = aspect.own->weights.caution *
+                   hit_points(their.weights, strike.strike.kind,
+                              their.clean_damage[other.flight.table->first_strike + i], false);
     aspect.threats.push_back(threat);
   }
   return aspect;
@@ -282,6 +256,7 @@ void Duel::score_candidates(const Node& node, int who) {
   Aspect aspect = aspect_of(node, who);
   scored_.resize(self.flight.table->next.size());
   std::size_t count = 0;
+  std::array<std::size_t, kChoices> choices{};  // how many of each
   float least_turned = -2;
   Scored spare{};
   double feint = 0;  // points that a feint is expected to bring
@@ -295,9 +270,11 @@ void Duel::score_candidates(const Node& node, int who) {
   const std::span<const NextAction> all = self.flight.table->next;
   const std::span<const NextLanes> lanes = self.flight.table->next_lanes;
   then_x_.resize(lanes.size()), then_z_.resize(lanes.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Vec3 then = aspect.opponent_at(node.now + all[i].lead + all[i].length);
-    then_x_[i / kLanes][i % kLanes] = then.x, then_z_[i / kLanes][i % kLanes] = then.z;
+  for (std::size_t block = 0; block < lanes.size(); ++block) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Vec3 then = aspect.opponent_at(node.now + lanes[block].until[lane]);
+      then_x_[block][lane] = then.x, then_z_[block][lane] = then.z;
+    }
   }
   find_bearings(lanes, aspect.end, aspect.opponent_now, kAttackLimit, kOtherLimit, then_x_, then_z_,
                 bearings_);
@@ -305,21 +282,23 @@ void Duel::score_candidates(const Node& node, int who) {
   aspect.add_protection(all, bearings_, node.now, saved_);
   std::array<double, kLanes> rates;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const NextAction& next = all[i];
+    const NextAction& next = all[i];  // looked at only where it must be: a hundred lie apart
+    const NextLanes& in = lanes[i / kLanes];
     const BearingLanes& bearing = bearings_[i / kLanes];
     const std::size_t lane = i % kLanes;
     if (lane == 0) rates = aspect.rates(bearing);
-    if (aspect.late && next.particular) continue;
-    aspect.now = node.now + next.lead;
-    double points = aspect.location(next, rates[lane]) + 0.001 * own.launch[next.to.at()];
-    if (next.attacks && may_reach(next, bearing.target[lane] - aspect.roams)) {
+    if (aspect.late && in.particular[lane]) continue;
+    double points = aspect.location(in.until[lane], rates[lane]) +
+                    0.001 * own.launch[static_cast<std::size_t>(in.to[lane])];
+    if (bearing.target[lane] - aspect.roams <= in.within[lane] && in.within[lane] > 0) {
+      aspect.now = node.now + in.lead[lane];
       const Frame start = frame_of(bearing.start_x[lane], bearing.start_z[lane],
                                    bearing.start_sine[lane], bearing.start_cosine[lane]);
       const Frame aim = frame_of(0, 0, bearing.aim_sine[lane], bearing.aim_cosine[lane]);
-      points += aspect.attack(*next.table, next.to, start, aim);
+      points += aspect.attack(next, start, aim);
     }
     points += saved_[i];
-    const Scored one{thousandths(points), next.kind, &next, false, bearing.apart[lane]};
+    const Scored one{thousandths(points), &next, false, bearing.apart[lane]};
     const float facing = bearing.facing[lane];
     if (setup_->settings.prune.back_turned && facing < kCosineBack) {
       ++counts_.back_turned;
@@ -327,6 +306,7 @@ void Duel::score_candidates(const Node& node, int who) {
       if (facing > least_turned) least_turned = facing, spare = one;
     } else {
       scored_[count++] = one;
+      ++choices[static_cast<std::size_t>(in.choice[lane])];
     }
   }
   Scored* feigned = nullptr;  // the best feint: one is enough to weigh
@@ -336,10 +316,13 @@ void Duel::score_candidates(const Node& node, int who) {
     if (feigned == nullptr || one.score > feigned->score) feigned = &one;
   }
   if (feigned != nullptr) feigned->score += thousandths(feint);
-  if (count == 0 && spare.next != nullptr) scored_[count++] = spare;
+  if (count == 0 && spare.next != nullptr) {
+    scored_[count++] = spare;
+    ++choices[static_cast<std::size_t>(spare.next->choice)];
+  }
   scored_.resize(count);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
-  pick_candidates(most, !aspect.threats.empty());
+  pick_candidates(most, choices, !aspect.threats.empty());
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
 }
 
@@ -366,12 +349,13 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
   for (const Habits::Seen& seen : setup_->habits->seen(situation)) {
     if (foreseen_.size() >= most || covered >= belief * total) break;
     covered += seen.count;
-    for (const Scored& one : scored_) {  // the best of those that begin with what was seen
+    const Scored* best = nullptr;  // of those that begin with what was seen
+    for (const Scored& one : scored_) {
       const NextAction& next = *one.next;
       if ((next.path.empty() ? next.to : next.path.front()) != seen.action) continue;
-      foreseen_.push_back(one);
-      break;
+      if (best == nullptr || one.better_than(*best)) best = &one;
     }
+    if (best != nullptr) foreseen_.push_back(*best);
   }
   if (foreseen_.empty()) return;  // nothing of it can follow here
   std::size_t left = others;
@@ -386,49 +370,42 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
   picked_.swap(foreseen_);
 }
 
-// The best of each class that must not be missing, then the best of the rest; in order of score.
+// The best of each choice that must not be missing, then the best of the rest; in order of score.
 // A few are wanted of many: they are looked for one by one, and only they are sorted.
-void Duel::pick_candidates(std::size_t most, bool threatened) {
-  const auto better = [](const Scored& a, const Scored& b) {
-    return a.score != b.score ? a.score > b.score : a.next->to < b.next->to;
-  };
+void Duel::pick_candidates(std::size_t most, const std::array<std::size_t, kChoices>& choices,
+                           bool threatened) {
   picked_.clear();
   std::size_t left = std::min(most, scored_.size());
   counts_.candidates += scored_.size() - left;
-  const auto take = [&](int how_many, const auto& wanted) {
-    for (; how_many > 0 && left > 0; --how_many, --left) {
-      Scored* best = nullptr;
-      for (Scored& one : scored_) {
-        if (one.taken || !wanted(class_of(one.kind))) continue;
-        if (best == nullptr || better(one, *best)) best = &one;
-      }
-      if (best == nullptr) return;
-      best->taken = true;
-      picked_.push_back(*best);
+  const auto take = [&](std::span<Scored> among, const auto& better) {
+    Scored* best = nullptr;
+    for (Scored& one : among) {
+      if (!one.taken && (best == nullptr || better(one, *best))) best = &one;
     }
-  };
-  // The step that leads farthest from the opponent. Every score is that of standing well, so of two
-  // who trade blows neither would ever look at the step that ends it.
-  const auto take_way_out = [&] {
-    Scored* farthest = nullptr;
-    for (Scored& one : scored_) {
-      if (one.taken || class_of(one.kind) != Class::step || left == 0) continue;
-      const bool farther = farthest == nullptr || one.apart > farthest->apart ||
-                           (one.apart == farthest->apart && better(one, *farthest));
-      if (farther) farthest = &one;
-    }
-    if (farthest == nullptr) return;
-    farthest->taken = true;
-    picked_.push_back(*farthest);
+    if (best == nullptr || left == 0) return;
+    best->taken = true;
+    picked_.push_back(*best);
     --left;
   };
-  take(1, [](Class c) { return c == Class::attack; });
-  take(1, [](Class c) { return c == Class::step; });
-  take_way_out();
-  take(threatened ? 2 : 1, [](Class c) { return c == Class::defense; });
-  take(1, [](Class c) { return c == Class::idle; });
-  take(static_cast<int>(left), [](Class) { return true; });
-  std::sort(picked_.begin(), picked_.end(), better);  // no two are equal
+  const auto higher = [](const Scored& a, const Scored& b) { return a.better_than(b); };
+  const auto farther = [](const Scored& a, const Scored& b) {
+    return a.apart != b.apart ? a.apart > b.apart : a.better_than(b);
+  };
+  std::array<std::span<Scored>, kChoices> among;
+  for (std::size_t i = 0, first = 0; i < kChoices; first += choices[i++]) {
+    among[i] = std::span(scored_).subspan(first, choices[i]);
+  }
+  const auto [attacks, steps, defenses, idles] = among;
+  take(attacks, higher);
+  take(steps, higher);
+  // The step that leads farthest from the opponent. Every score is that of standing well, so of two
+  // who trade blows neither would ever look at the step that ends it.
+  take(steps, farther);
+  take(defenses, higher);
+  if (threatened) take(defenses, higher);
+  take(idles, higher);
+  while (left > 0) take(scored_, higher);
+  std::sort(picked_.begin(), picked_.end(), higher);  // no two are equal
 }
 
 }  // namespace ringcraft

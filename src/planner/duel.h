@@ -6,6 +6,7 @@
 // do what they have already begun: obstacles and threats.
 
 #include <array>
+#include <span>
 
 #include "planner/bearings.h"
 #include "planner/evaluation.h"
@@ -69,8 +70,8 @@ struct SideSetup {
   const Style* style = nullptr;
   Weights weights;
   std::vector<std::int32_t> launch;  // F_control of each action, thousandths
-  std::vector<std::vector<std::int32_t>>
-      clean_damage;  // of each action's strikes on the other side
+  // Of each strike of the tables (ActionTable::first_strike) on the other side.
+  std::span<const std::int32_t> clean_damage;
 };
 
 struct DuelSetup {
@@ -217,19 +218,22 @@ class Duel {
   std::vector<Met> met_;
   struct Scored {
     std::int32_t score;
-    Kind kind;
     const NextAction* next;
     bool taken;
     float apart;  // m: how far the roots are apart when it is over
+    bool better_than(const Scored& o) const {
+      return score != o.score ? score > o.score : next->to < o.next->to;
+    }
   };
-  std::vector<Scored> scored_, picked_, foreseen_;  // of moves()
+  std::vector<Scored> scored_, picked_, foreseen_;  // of moves(); the first by Choice
   std::vector<NextLanes::Lanes> then_x_, then_z_;   // world: the opponent's root when each is over
   std::vector<BearingLanes> bearings_;
   std::vector<double> saved_;  // points, of each that may follow
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
-  void pick_candidates(std::size_t most, bool threatened);
+  void pick_candidates(std::size_t most, const std::array<std::size_t, kChoices>& choices,
+                       bool threatened);
   void foresee_habit(const Node& node, std::size_t most);
 };
 static_assert(Game<Duel>);

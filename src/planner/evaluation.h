@@ -18,7 +18,7 @@ inline constexpr std::size_t kStrikeKinds = static_cast<std::size_t>(StrikeKind:
 // Thousandths of a point, rounded to nearest.
 inline std::int32_t thousandths(double points) {
   const double scaled = std::clamp(points, -1e5, 1e5) * 1000;
-  return static_cast<std::int32_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
+  return static_cast<std::int32_t>(scaled + std::copysign(0.5, scaled));
 }
 
 // A style at one moment of the fight: boredom has been worked in. Constant inside a search.

@@ -40,7 +40,7 @@ Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
 // Iterative deepening by time: a short horizon first, whose best moves order the next and whose
 // growth tells how far a limit will carry.
 Searched search_ahead(const DuelSetup& setup, const FightState& state, const SoftChoice& preference,
-                      const PlanLimits& limits) {
+                      const PlanLimits& limits, SearchPool<Duel>& pool) {
   const Style& style = *setup.side[0].style;
   const Tick wanted = std::clamp<Tick>(ticks(style.horizon_s), 1, kLongestHorizon);
   const DuelNode root = Duel::root(setup, state);
@@ -54,7 +54,7 @@ Searched search_ahead(const DuelSetup& setup, const FightState& state, const Sof
                                   std::chrono::duration<double>(limits.seconds)));
   }
   if (limits.any()) search_settings.stop = &stop;
-  RootSearch<Duel> search(search_settings, setup.settings.threads, setup.settings.alpha_beta);
+  RootSearch<Duel> search(search_settings, setup.settings.threads, setup.settings.alpha_beta, pool);
   const std::uint64_t limit = setup.settings.node_limit;
   Searched best;
   Tick horizon = std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon);

@@ -23,6 +23,6 @@ inline constexpr Tick kHorizonStep = 30;   // 0.25 s
 // The decision of side 0 of `setup` at state.now, to its style's horizon or as far as the node
 // limit of the settings and `limits` carry.
 Searched search_ahead(const DuelSetup& setup, const FightState& state, const SoftChoice& preference,
-                      const PlanLimits& limits);
+                      const PlanLimits& limits, SearchPool<Duel>& pool);
 
 }  // namespace ringcraft

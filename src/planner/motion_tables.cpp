@@ -1,6 +1,7 @@
 #include "planner/motion_tables.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "physics/partial.h"
@@ -150,45 +151,64 @@ std::vector<Row> paced(const std::vector<Row>& rows, const std::vector<Tick>& ag
   return result;
 }
 
-// The strike's parts at `tick`, seen from the target's action space.
-void put_striker(const InFlight& attacker, std::uint32_t parts, const InFlight& target, Tick tick,
-                 BodyCapsules& out) {
-  const Frame seen = relative(target.frame_at(tick), attacker.frame_at(tick));
-  const BodyCapsules& own = attacker.table->capsules_at(attacker.age(tick));
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (((parts >> i) & 1u) == 0) continue;
-    out[i] = {seen.to_outer(own[i].a), seen.to_outer(own[i].b), own[i].radius};
+// A strike's parts over a tick, seen from the target's action space.
+class SweptLimb {
+ public:
+  SweptLimb(std::uint32_t parts, const BodyCapsules& was, const Frame& before,
+            const BodyCapsules& is, const Frame& after) {
+    for (; parts != 0; parts &= parts - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(parts));
+      limb_[count_++] = {part_at(i), seen(before, was[i]), seen(after, is[i])};
+    }
   }
-}
+  std::span<const SweptPart> parts() const { return {limb_.data(), count_}; }
 
-bool touches(const BodyCapsules& striker, std::uint32_t parts, const Box& box) {
-  constexpr float kTickTravel = 0.25f;  // m: farther than a blow and what it meets go in a tick
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (((parts >> i) & 1u) == 0) continue;
-    const Capsule& c = striker[i];
-    const Vec3 center = (c.a + c.b) * 0.5f;
-    const float reach = c.radius + 0.5f * glm::distance(c.a, c.b) + kTickTravel;
+ private:
+  static Capsule seen(const Frame& frame, const Capsule& c) {
+    return {frame.to_outer(c.a), frame.to_outer(c.b), c.radius};
+  }
+
+  std::array<SweptPart, kMostStrikingParts> limb_;
+  std::size_t count_ = 0;
+};
+
+constexpr float kTickTravel = 0.25f;  // m: farther than a blow and what it meets go in a tick
+
+// Whether any of the parts, whose spheres are seen from where the box is given, may touch it within
+// a tick.
+bool may_touch(const std::array<Sphere, kPartCount>& spheres, std::uint32_t parts,
+               const Frame& seen, const Box& box) {
+  for (; parts != 0; parts &= parts - 1) {
+    const Sphere& sphere = spheres[static_cast<std::size_t>(std::countr_zero(parts))];
+    const Vec3 center = seen.to_outer(sphere.center);
+    const float reach = sphere.radius + kTickTravel;
     if (glm::distance2(center, glm::clamp(center, box.low, box.high)) < reach * reach) return true;
   }
   return false;
 }
 
-// The target's parts that the strike's may meet in the tick, by the spheres around them where it
+// The target's parts that the limb's may meet in the tick, by the spheres around them where it
 // begins and by how far they go.
-std::uint32_t parts_near(const SweptBody& striker, std::uint32_t parts,
-                         const std::array<Sphere, kPartCount>& target,
-                         const std::array<float, kPartCount>& travels) {
+std::uint32_t parts_near(std::span<const SweptPart> limb, const ActionTable& target, Tick age) {
   constexpr float kRounding = 2e-3f;  // m
+  const auto& spheres = target.spheres_at(age - 1);
+  const auto& groups = target.groups_at(age - 1);
+  const auto& travels = target.travel_at(age);
+  const auto within = [](Vec3 from, Vec3 to, float far) {
+    return glm::distance2(from, to) < far * far;
+  };
   std::uint32_t near = 0;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (((parts >> i) & 1u) == 0) continue;
-    const Capsule& c = striker.before[i];
-    const Vec3 center = (c.a + c.b) * 0.5f;
-    const float reach =
-        0.5f * glm::distance(c.a, c.b) + c.radius + travel(c, striker.after[i]) + kRounding;
-    for (std::size_t j = 0; j < kPartCount; ++j) {
-      const float far = reach + target[j].radius + travels[j];
-      if (glm::distance2(center, target[j].center) < far * far) near |= 1u << j;
+  for (const SweptPart& one : limb) {
+    const Vec3 center = (one.before.a + one.before.b) * 0.5f;
+    const float reach = 0.5f * glm::distance(one.before.a, one.before.b) + one.before.radius +
+                        travel(one.before, one.after) + kRounding;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      const float far = reach + groups[g].radius + kTickTravel;
+      if (!within(center, groups[g].center, far)) continue;
+      for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
+        const float near_by = reach + spheres[i].radius + travels[i];
+        if (within(center, spheres[i].center, near_by)) near |= 1u << i;
+      }
     }
   }
   return near;
@@ -236,6 +256,10 @@ Frame operator*(const Frame& outer, const Frame& inner) {
   return result;
 }
 
+StrikeAim aim_of(const StrikeTable& strike) {
+  return {strike.landing.z, strike.landing.x, strike.landing_tick, strike.strike.kind};
+}
+
 const NextAction* ActionTable::find_next(ActionId to) const {
   for (const NextAction& one : next) {
     if (one.to == to) return &one;
@@ -248,6 +272,31 @@ const NextAction* ActionTable::find_next(ActionId to) const {
 
 namespace {
 
+Choice choice_of(Kind kind) {
+  switch (kind) {
+    case Kind::attack:
+    case Kind::combination:
+      return Choice::attack;
+    case Kind::defense:
+      return Choice::defense;
+    case Kind::idle:
+      return Choice::idle;
+    default:
+      return Choice::step;
+  }
+}
+
+float within(std::span<const StrikeAim> strikes) {
+  constexpr float kRounding = 1e-3f;
+  if (strikes.empty()) return 0;
+  float ahead = 0, aside = 0;
+  for (const StrikeAim& one : strikes) {
+    ahead = std::max({ahead, one.ahead + kMostGap, kMostPast - one.ahead});
+    aside = std::max(aside, 0.5f * std::abs(one.aside) + kMostAside);
+  }
+  return std::hypot(ahead, aside) + kRounding;
+}
+
 std::vector<NextLanes> lanes_of(std::span<const NextAction> next) {
   std::vector<NextLanes> blocks((next.size() + kLanes - 1) / kLanes);
   for (std::size_t i = 0; i < next.size(); ++i) {
@@ -259,6 +308,12 @@ std::vector<NextLanes> lanes_of(std::span<const NextAction> next) {
     block.end_x[lane] = end.x, block.end_z[lane] = end.z;
     block.end_sine[lane] = end.sine, block.end_cosine[lane] = end.cosine;
     block.attacks[lane] = next[i].attacks ? 1.0f : 0.0f;
+    block.within[lane] = within(next[i].strikes);
+    block.lead[lane] = next[i].lead;
+    block.until[lane] = next[i].lead + next[i].length;
+    block.to[lane] = next[i].to.value;
+    block.choice[lane] = next[i].choice;
+    block.particular[lane] = next[i].particular;
   }
   return blocks;
 }
@@ -276,7 +331,12 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     poses.reserve(action.clip.frames.size());
     for (const Pose& frame : action.clip.frames) poses.push_back(scaled(frame, body_.scale));
     actions_.push_back(action_table(action, body_, std::move(poses)));
-    actions_.back().id = ActionId(actions_.size() - 1);
+    ActionTable& table = actions_.back();
+    table.id = ActionId(actions_.size() - 1);
+    table.first_strike = strikes_.size();
+    for (const StrikeTable& one : table.strikes) {
+      strikes_.push_back(aim_of(one));
+    }
   }
   for (std::size_t i = 0; i < whole; ++i) {
     ActionTable& table = actions_[i];
@@ -291,6 +351,8 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
       if (!library.action(edge.to).connects) continue;
       followers_[i].over.push_back(*next_action(ActionId(i), edge.to));
     }
+    std::stable_sort(followers_[i].next.begin(), followers_[i].next.end(),
+                     [](const NextAction& a, const NextAction& b) { return a.choice < b.choice; });
     followers_[i].next_lanes = lanes_of(followers_[i].next);
     table.next = followers_[i].next;
     table.next_lanes = followers_[i].next_lanes;
@@ -397,19 +459,18 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   NextAction next;
   next.to = to;
   // A feint stands among the attacks: as a step it would take a real one's place in every list.
-  next.kind = table.action->feint ? Kind::attack : table.action->kind;
+  next.choice = table.action->feint ? Choice::attack : choice_of(table.action->kind);
   next.attacks = table.action->attacks();
   next.particular = table.action->defense && table.action->defense->particular();
   next.path = path->via;
   next.lead = path->ticks;
   next.length = table.length;
+  next.root = table.root.data();
+  next.defense = table.action->defense ? &*table.action->defense : nullptr;
+  next.strikes = std::span(strikes_).subspan(table.first_strike, table.strikes.size());
+  next.first_strike = table.first_strike;
   next.end = table.end;
   next.table = &table;
-  for (const StrikeTable& strike : table.strikes) {
-    next.lands_ahead = std::max(next.lands_ahead, strike.landing.z);
-    next.lands_behind = std::min(next.lands_behind, strike.landing.z);
-    next.lands_aside = std::max(next.lands_aside, std::abs(strike.landing.x));
-  }
   const auto edge = [&](ActionId first, ActionId second) {
     return Frame(scaled(machine.edge(first, second)->alignment.placement, body_.scale));
   };
@@ -444,19 +505,23 @@ bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlig
 
 std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& strike,
                                   const InFlight& target, Tick tick) {
-  SweptBody striker;
-  put_striker(attacker, strike.parts, target, tick, striker.after);
-  const Tick age = target.age(tick);
-  if (!touches(striker.after, strike.parts, target.table->box_at(age))) return std::nullopt;
-  put_striker(attacker, strike.parts, target, tick - 1, striker.before);
-  const std::uint32_t near = parts_near(striker, strike.parts, target.table->spheres_at(age - 1),
-                                        target.table->travel_at(age));
+  const ActionTable &own = *attacker.table, &struck = *target.table;
+  const Tick own_age = attacker.age(tick), age = target.age(tick);
+  const Frame after = relative(target.frame_at(tick), attacker.frame_at(tick));
+  if (!may_touch(own.spheres_at(own_age), strike.parts, after, struck.box_at(age))) {
+    return std::nullopt;
+  }
+  const bool turning = attacker.turning(tick - 1) || target.turning(tick - 1);
+  const Frame before =
+      turning ? relative(target.frame_at(tick - 1), attacker.frame_at(tick - 1)) : after;
+  const SweptLimb limb(strike.parts, own.capsules_at(own_age - 1), before, own.capsules_at(own_age),
+                       after);
+  const std::uint32_t near = parts_near(limb.parts(), struck, age);
   if (near == 0) return std::nullopt;
-  SweptBody struck;
-  struck.before = target.table->capsules_at(age - 1);
-  struck.after = target.table->capsules_at(age);
-  struck.guards = guarding_parts(*target.table->action, target.table->clip_age(age));
-  return strike_contact(striker, strike.strike, struck, near);
+  return strike_contact(limb.parts(),
+                        {struck.capsules_at(age - 1), struck.capsules_at(age),
+                         guarding_parts(*struck.action, struck.clip_age(age))},
+                        near);
 }
 
 namespace {

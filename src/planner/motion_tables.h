@@ -51,34 +51,61 @@ struct StrikeTable {
   float reach = 0;  // largest distance of any of the parts from the origin on the ground, m
 };
 
+// What of a strike a candidate is weighed by.
+struct StrikeAim {
+  float ahead = 0, aside = 0;  // m: StrikeTable::landing, z and x
+  Tick tick = 0;               // StrikeTable::landing_tick
+  StrikeKind kind = StrikeKind::straight;
+};
+StrikeAim aim_of(const StrikeTable& strike);
+
 Frame operator*(const Frame& outer, const Frame& inner);
 
 struct ActionTable;
 
-// An action that can follow, directly or by a path of the state machine. What every candidate of a
-// node is weighed by stands here, beside each other, and not in a hundred tables.
+// Kinds of choices as a list of candidates has them; whatever is none of the others is a step.
+enum class Choice : std::uint8_t { attack, step, defense, idle };
+inline constexpr std::size_t kChoices = 4;
+
+// m: a body whose root is farther than this beyond where a blow lands, before it or beside it is
+// not reached.
+inline constexpr float kMostGap = .28f, kMostPast = .75f, kMostAside = .40f;
+
+// An action that can follow, directly or by a path of the state machine.
 struct NextAction {
   ActionId to;
-  Kind kind = Kind::idle;
+  Choice choice = Choice::step;
   bool attacks = false;
-  bool particular = false;  // a defense that answers particular attacks
-  Tick lead = 0;            // length of the path
-  Tick length = 0;          // of `to`
-  // m: the least box on the ground that holds the origin and where each of its strikes lands.
-  float lands_ahead = 0, lands_behind = 0, lands_aside = 0;
+  bool particular = false;             // a defense that answers particular attacks
+  Tick lead = 0;                       // length of the path
+  Tick length = 0;                     // of `to`
+  std::size_t first_strike = 0;        // ActionTable::first_strike
+  std::span<const StrikeAim> strikes;  // of `to`
+  const Placement* root = nullptr;     // of `to`, one a tick
+  const Defense* defense = nullptr;    // of `to`
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
   Frame end;        // of `to`: ActionTable::end
   const ActionTable* table = nullptr;  // of `to`
   std::vector<ActionId> path;          // actions played in full before it; empty for a direct edge
+
+  const Placement& root_at(Tick age) const {
+    return root[age < 0 ? 0 : age > length ? length : age];
+  }
 };
 
-// What of it says where it leads, of kLanes of them side by side; zeros behind the last.
+// What every candidate of a node is weighed by, of kLanes of them side by side and not in a hundred
+// tables; zeros behind the last.
 inline constexpr std::size_t kLanes = 8;
 struct NextLanes {
   using Lanes = std::array<float, kLanes>;
   Lanes x{}, z{}, sine{}, cosine{};                  // alignment
   Lanes end_x{}, end_z{}, end_sine{}, end_cosine{};  // end
   Lanes attacks{};                                   // 1 where it does
+  Lanes within{};  // m: no strike of it reaches a body that is farther from where it starts
+  std::array<Tick, kLanes> lead{}, until{};  // length of the path, and with that of `to`
+  std::array<std::int32_t, kLanes> to{};     // number of the action
+  std::array<Choice, kLanes> choice{};
+  std::array<bool, kLanes> particular{};
 };
 
 // The parts of a body as five groups of neighbours: trunk and head, arms, legs.
@@ -101,13 +128,14 @@ struct ActionTable {
   std::vector<Sphere> bound;                            // of the capsules
   std::vector<Pose> pose;                               // scaled to the body
   std::vector<StrikeTable> strikes;
-  float extent = 0;             // largest distance of the body from the origin on the ground, m
-  Frame end;                    // root[length]
-  float way = 0;                // of a response that stays up: way_of_clip (physics/partial.h), m
-  Strides strides;              // of the same
-  std::vector<float> way_left;  // of a response that stays up, one a tick, m
-  ActionId get_up;              // of a fall: what follows it; invalid for anything else
-  std::span<const NextAction> next;       // what a fighter may choose after it, by index
+  std::size_t first_strike = 0;  // its number among all strikes of the library's actions
+  float extent = 0;              // largest distance of the body from the origin on the ground, m
+  Frame end;                     // root[length]
+  float way = 0;                 // of a response that stays up: way_of_clip (physics/partial.h), m
+  Strides strides;               // of the same
+  std::vector<float> way_left;   // of a response that stays up, one a tick, m
+  ActionId get_up;               // of a fall: what follows it; invalid for anything else
+  std::span<const NextAction> next;       // what a fighter may choose after it, by Choice
   std::span<const NextLanes> next_lanes;  // of `next`
   std::span<const NextAction> over;       // what follows it only on the way to something else
 
@@ -150,6 +178,7 @@ class MotionTables {
   const ActionTable& at(ActionId action, float share) const;
   // Of the library's actions and of parts of them.
   std::size_t count() const { return actions_.size(); }
+  std::size_t strike_count() const { return strikes_.size(); }  // of the library's actions
   // For so many ticks after its launch no choice strikes or ends.
   Tick lull() const { return lull_; }
   Tick longest_lead() const { return longest_lead_; }  // NextAction::lead
@@ -167,6 +196,7 @@ class MotionTables {
   void find_lull();
 
   std::vector<ActionTable> actions_;
+  std::vector<StrikeAim> strikes_;  // of the library's actions, beside each other
   struct Followers {
     std::vector<NextAction> next, over;
     std::vector<NextLanes> next_lanes;
@@ -186,9 +216,8 @@ struct InFlight {
   InFlight() = default;
   InFlight(const MotionTables& tables, const Launch& launch);
   Tick age(Tick tick) const { return tick - launch.start; }
-  Frame frame_at(Tick tick) const {
-    return launch.aim == 0 || tick >= aimed_from ? aimed : frame_while_aiming(tick);
-  }
+  bool turning(Tick tick) const { return launch.aim != 0 && tick < aimed_from; }
+  Frame frame_at(Tick tick) const { return turning(tick) ? frame_while_aiming(tick) : aimed; }
   Placement root_at(Tick tick) const {
     const Frame frame = frame_at(tick);
     const Placement& root = table->root_at(age(tick));

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "planner/decision_record.h"
+#include "planner/horizon_search.h"
 #include "planner/tally.h"
 #include "planner/tree.h"
 
@@ -40,8 +41,8 @@ struct Planner::Inside {
   std::vector<std::unique_ptr<MotionTables>> tables;  // one per different body
   std::vector<int> body_of;                           // contender -> tables
   std::unique_ptr<ImpactMemo> memo;
-  // clean[attacker body][victim body][action][strike], thousandths.
-  std::vector<std::vector<std::vector<std::vector<std::int32_t>>>> clean;
+  // clean[attacker body][victim body][strike of the attacker's tables], thousandths.
+  std::vector<std::vector<std::vector<std::int32_t>>> clean;
   std::vector<std::vector<double>> use;   // phi by contender and action
   std::vector<std::vector<double>> work;  // J by contender and action; empty where it never tires
   std::vector<Condition> condition;       // by contender
@@ -53,6 +54,7 @@ struct Planner::Inside {
   };
   std::vector<std::optional<Shown>> shown;  // by contender
   SearchCost* cost = nullptr;
+  SearchPool<Duel> searches;  // of plan()
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
          std::shared_ptr<ImpactStore> store);
@@ -100,13 +102,12 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
   for (std::size_t a = 0; a < tables.size(); ++a) {
     clean[a].resize(tables.size());
     for (std::size_t v = 0; v < tables.size(); ++v) {
-      for (std::size_t i = 0; i < library.actions().size(); ++i) {
-        std::vector<std::int32_t> damages;
-        for (std::size_t k = 0; k < library.actions()[i].strikes.size(); ++k) {
-          damages.push_back(
+      const MotionTables& own = *tables[a];
+      for (std::size_t i = 0; i < own.library().actions().size(); ++i) {
+        for (std::size_t k = 0; k < own.at(ActionId(i)).strikes.size(); ++k) {
+          clean[a][v].push_back(
               memo->clean_damage(static_cast<int>(a), ActionId(i), k, static_cast<int>(v)));
         }
-        clean[a][v].push_back(std::move(damages));
       }
     }
   }
@@ -267,13 +268,14 @@ Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact
 
 Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact,
                    const PlanLimits& limits) {
-  const Inside& in = *inside_;
+  Inside& in = *inside_;
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
   const std::optional<Inside::View> view = in.view(truth, fighter, last_contact);
   if (!view) return resting(in.library, truth, fighter, scale);
   const FightState& state = view->state;
   const DuelSetup& setup = view->setup;
-  const Searched searched = search_ahead(setup, state, in.preference(state, fighter), limits);
+  const Searched searched =
+      search_ahead(setup, state, in.preference(state, fighter), limits, in.searches);
   if (searched.roots.empty()) return resting(in.library, state, fighter, scale);
   Plan plan;
   plan.record = decision_record(setup, state, searched);

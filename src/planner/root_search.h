@@ -55,8 +55,13 @@ class RootSearch {
  public:
   using Node = typename G::Node;
 
-  RootSearch(const SearchSettings& settings, int threads, bool alpha_beta)
-      : settings_(settings), threads_(threads), alpha_beta_(alpha_beta) {}
+  // Takes its searches from `pool` and gives them back.
+  RootSearch(const SearchSettings& settings, int threads, bool alpha_beta, SearchPool<G>& pool)
+      : settings_(settings), threads_(threads), alpha_beta_(alpha_beta), pool_(pool) {}
+  RootSearch(const RootSearch&) = delete;
+  ~RootSearch() {
+    for (RootMemory<G>& memory : memory_) pool_.give_back(std::move(memory.search));
+  }
 
   // Searches every move of `root`, where the maximizer acts. The largest sum of value and
   // `preference` (of a move's key) first; of equal sums the exact one, then the smallest key. Empty
@@ -136,7 +141,7 @@ class RootSearch {
     for (RootMemory<G>& memory : memory_) {
       if (memory.key == key) return memory;
     }
-    memory_.push_back({key, kWorst, std::make_unique<Search<G>>(settings_)});
+    memory_.push_back({key, kWorst, pool_.take(settings_)});
     return memory_.back();
   }
 
@@ -166,6 +171,7 @@ class RootSearch {
   SearchSettings settings_;
   int threads_;
   bool alpha_beta_;
+  SearchPool<G>& pool_;
   std::uint64_t spent_ = 0;
   std::vector<RootMemory<G>> memory_;
 };

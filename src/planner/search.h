@@ -182,8 +182,20 @@ class Search {
   using Node = typename G::Node;
   using Move = typename G::Move;
 
-  explicit Search(const SearchSettings& settings) : settings_(settings) {
-    if (settings.table) table_.resize(std::size_t{1} << settings.table_bits);
+  explicit Search(const SearchSettings& settings) { forget(settings); }
+
+  // As if made anew; what it has taken from the heap stays with it.
+  void forget(const SearchSettings& settings) {
+    settings_ = settings;
+    counts_ = {};
+    first_generation_ = ++generation_;
+    table_.resize(settings.table ? std::size_t{1} << settings.table_bits : 0);
+    for (const auto& one : levels_) one->killers = {kNoMove, kNoMove};
+    history_ = {};
+    history_most_ = {};
+    answers_.assign(kContexts, {kNoMove, kNoMove});
+    forget_tree();
+    root_ = {};
   }
 
   // The value of `node` if it lies in (alpha, beta); else a bound on it (fail-soft). `line` is the
@@ -194,7 +206,7 @@ class Search {
     aborted_ = false;
     counts_ = {};
     const std::pair<std::uint64_t, std::int32_t> root{game.hash(node), game.gained(node)};
-    if (root != root_) edges_.clear(), spots_.clear(), root_spot_ = nullptr;
+    if (root != root_) forget_tree();
     root_ = root;
     return visit(game, node, alpha, beta, 0, root_spot_, line);
   }
@@ -205,13 +217,13 @@ class Search {
   const SearchCounts& counts() const { return counts_; }  // of the last run
 
  private:
-  enum class Bound : std::uint8_t { none, exact, lower, upper };
+  enum class Bound : std::uint8_t { exact, lower, upper };
   struct Entry {
     std::uint64_t hash = 0;
     std::int32_t value = 0;  // less what was gained on the way
     std::uint32_t best = kNoMove;
     std::uint32_t generation = 0;
-    Bound bound = Bound::none;
+    Bound bound = Bound::exact;
   };
   static constexpr std::uint32_t kNoMove = std::numeric_limits<std::uint32_t>::max();
 
@@ -227,6 +239,12 @@ class Search {
     std::uint32_t generation = 0;
     Counts by_step, by_check;
     Spot* below = nullptr;  // of the child, where it was expanded
+
+    void begin(const Move& way) {  // whatever the child was is made anew by the step
+      move = way;
+      stepped = checked = cut_off = false;
+      found = 0, generation = 0, below = nullptr;
+    }
   };
   // A node that was expanded: its ways out, in the game's order.
   struct Spot {
@@ -245,6 +263,12 @@ class Search {
     std::vector<Edge> edges;  // of it
   };
   static constexpr std::size_t kMostSpots = 4096;
+
+  void forget_tree() {
+    edges_.clear();
+    spots_.clear();
+    root_spot_ = nullptr;
+  }
 
   Level& level(std::size_t depth) {
     while (levels_.size() <= depth) levels_.push_back(std::make_unique<Level>());
@@ -282,8 +306,7 @@ class Search {
       spot.edges = edges_.take(moves_.size());
     }
     for (std::size_t i = 0; i < moves_.size(); ++i) {
-      spot.edges[i] = {};
-      spot.edges[i].move = moves_[i];
+      spot.edges[i].begin(moves_[i]);
     }
     spot.expanded = true;
   }
@@ -376,7 +399,7 @@ class Search {
     const std::uint64_t hash = spot.hash;
     Entry* entry = entry_of(hash);
     std::uint32_t first = kNoMove;
-    if (entry != nullptr && entry->bound != Bound::none && entry->hash == hash) {
+    if (entry != nullptr && entry->generation >= first_generation_ && entry->hash == hash) {
       first = entry->best;
       const std::int32_t value = entry->value + gained;
       if (entry->generation == generation_ &&
@@ -544,19 +567,35 @@ class Search {
   SearchSettings settings_;
   SearchCounts counts_;
   bool aborted_ = false;
-  std::uint32_t generation_ = 0;
+  std::uint32_t generation_ = 0, first_generation_ = 0;  // what an older one wrote is forgotten
   std::vector<Entry> table_;
   std::vector<std::unique_ptr<Level>> levels_;
   std::array<std::vector<std::uint64_t>, 2> history_;
   std::array<std::uint64_t, 2> history_most_{};
-  std::vector<std::array<std::uint32_t, 2>> answers_ =
-      std::vector<std::array<std::uint32_t, 2>>(kContexts, {kNoMove, kNoMove});
+  std::vector<std::array<std::uint32_t, 2>> answers_;
   std::vector<Rank> ranks_;  // of order()
   std::vector<Move> moves_;  // of expand()
   Arena<Edge> edges_;        // the tree that was walked
   Arena<Spot> spots_;
   Spot* root_spot_ = nullptr;
   std::pair<std::uint64_t, std::int32_t> root_{};  // hash and gain of its root
+};
+
+// Searches that have done their work, with their tables and trees on the heap, for the next ones.
+template <Game G>
+class SearchPool {
+ public:
+  std::unique_ptr<Search<G>> take(const SearchSettings& settings) {
+    if (idle_.empty()) return std::make_unique<Search<G>>(settings);
+    std::unique_ptr<Search<G>> search = std::move(idle_.back());
+    idle_.pop_back();
+    search->forget(settings);
+    return search;
+  }
+  void give_back(std::unique_ptr<Search<G>> search) { idle_.push_back(std::move(search)); }
+
+ private:
+  std::vector<std::unique_ptr<Search<G>>> idle_;
 };
 
 }  // namespace ringcraft

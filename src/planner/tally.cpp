@@ -67,7 +67,8 @@ TreeShape shape_of(const DuelSetup& setup, const FightState& state, Tick horizon
 
 SearchTally tally_of(const DuelSetup& setup, const FightState& state, Tick horizon,
                      const SearchTrial& trial, const SoftChoice& preference) {
-  RootSearch<Duel> search(SearchSettings{trial.devices}, 1, true);
+  SearchPool<Duel> pool;
+  RootSearch<Duel> search(SearchSettings{trial.devices}, 1, true, pool);
   const DuelNode root = Duel::root(setup, state);
   SearchTally tally;
   for (Tick at = trial.deepening ? std::min(kFirstHorizon, horizon) : horizon;;) {

@@ -74,14 +74,12 @@ class BoutTest : public DuelFixture {
 
   std::array<Tally, 2> bouts(double horizon_0, double horizon_1, int count, double length) {
     static const MotionTables kTables(slow_library(), make_body({}));
+    static const std::vector<std::int32_t> kDamage(kTables.strike_count(), 5000);
     static ImpactMemo memo({&kTables});
     setup_.memo = &memo;
     for (SideSetup& side : setup_.side) {
       side.tables = &kTables;
-      side.clean_damage.clear();
-      for (const Action& action : slow_library().actions()) {
-        side.clean_damage.emplace_back(action.strikes.size(), 5000);
-      }
+      side.clean_damage = kDamage;
       side.launch.assign(slow_library().actions().size(), 0);
     }
     std::vector<Contender> both = contenders(2, {});

@@ -26,9 +26,7 @@ class DuelFixture : public SyntheticFixture {
       side.id = FighterId(i);
       side.style = &style_;
       side.launch.assign(library().actions().size(), 0);
-      for (const Action& action : library().actions()) {
-        side.clean_damage.emplace_back(action.strikes.size(), 5000);
-      }
+      side.clean_damage = clean_damage_;
     }
     setup_.memo = &memo();
     set_style(style_);
@@ -75,6 +73,8 @@ class DuelFixture : public SyntheticFixture {
     return std::vector<Contender>(count, {make_body({}), style});
   }
 
+  std::vector<std::int32_t> clean_damage_ =
+      std::vector<std::int32_t>(tables().strike_count(), 5000);
   Style style_;
   DuelSetup setup_;
 };

@@ -726,13 +726,14 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
   const MotionLibrary low = with_low_stance();
   ASSERT_TRUE(low.dropped().empty());
   const MotionTables low_tables(low, make_body({}));
+  const std::vector<std::int32_t> damage(low_tables.strike_count(), 5000);
   Style style;
   style.candidates = 40;
   set_style(style);
   for (SideSetup& side : setup_.side) {
     side.tables = &low_tables;
     side.launch.assign(low.actions().size(), 0);
-    side.clean_damage.assign(low.actions().size(), {5000});
+    side.clean_damage = damage;
   }
   FightState state = facing(3);
   for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");

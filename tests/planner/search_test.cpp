@@ -285,7 +285,9 @@ TEST(SearchTest, LongerHorizonKeepsNoValues) {
   EXPECT_EQ(search.run(toy, {}, kWorst, kBest, line), 1000);
 }
 
+// What a search has done before, on another tree with the same names, changes nothing either.
 TEST(RootSearchTest, TheLargestSumIsFoundForAnyNumberOfThreads) {
+  SearchPool<Toy> worn;
   for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
     const RandomTree tree(seed, true);
     Toy toy{&tree.vertices()};
@@ -293,7 +295,8 @@ TEST(RootSearchTest, TheLargestSumIsFoundForAnyNumberOfThreads) {
     const auto preference = [&](std::uint32_t move) {  // ties too
       return static_cast<std::int32_t>((seed * 7 + move * 5) % 4) * 3;
     };
-    RootSearch<Toy> one({}, 1, true), two({}, 2, true), plain({}, 1, false);
+    SearchPool<Toy> fresh;
+    RootSearch<Toy> one({}, 1, true, worn), two({}, 2, true, fresh), plain({}, 1, false, fresh);
     const auto a = one.run(toy, {}, preference, 0);
     const auto b = two.run(toy, {}, preference, 0);
     const auto truth = plain.run(toy, {}, preference, 0);
@@ -320,7 +323,8 @@ TEST(RootSearchTest, TheLargestSumIsFoundForAnyNumberOfThreads) {
 TEST(RootSearchTest, TooSmallANodeLimitGivesNothing) {
   const std::vector<Toy::Vertex> tree = perfectly_ordered(4, 6);
   Toy toy{&tree};
-  RootSearch<Toy> search({}, 1, true);
+  SearchPool<Toy> pool;
+  RootSearch<Toy> search({}, 1, true, pool);
   const auto none = [](std::uint32_t) { return 0; };
   EXPECT_TRUE(search.run(toy, {}, none, 100).empty());
   EXPECT_GT(search.spent(), 0u);
