@@ -39,41 +39,33 @@ Sphere bound_of(const BodyCapsules& capsules) {
   return sphere;
 }
 
-std::array<Sphere, kPartCount> spheres_of(const BodyCapsules& capsules) {
-  std::array<Sphere, kPartCount> spheres;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Capsule& c = capsules[i];
-    spheres[i] = {(c.a + c.b) * 0.5f, 0.5f * glm::distance(c.a, c.b) + c.radius};
-  }
-  return spheres;
-}
-
-// First part of each group; a group ends where the next one begins.
-constexpr std::array<std::size_t, kGroups + 1> kGroupBegin{
-    index(Part::pelvis),     index(Part::left_upper_arm), index(Part::right_upper_arm),
-    index(Part::left_thigh), index(Part::right_thigh),    kPartCount};
-
-std::array<Sphere, kGroups> groups_of(const std::array<Sphere, kPartCount>& spheres) {
-  std::array<Sphere, kGroups> groups;
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    Box box{Vec3(1e9f), Vec3(-1e9f)};
-    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
-      box.low = glm::min(box.low, spheres[i].center - spheres[i].radius);
-      box.high = glm::max(box.high, spheres[i].center + spheres[i].radius);
-    }
-    groups[g].center = (box.low + box.high) * 0.5f;
-    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
-      const float far = glm::distance(groups[g].center, spheres[i].center) + spheres[i].radius;
-      groups[g].radius = std::max(groups[g].radius, far);
-    }
-  }
-  return groups;
-}
-
-std::array<float, kPartCount> travels_of(const BodyCapsules& before, const BodyCapsules& after) {
-  std::array<float, kPartCount> rows{};
+PartSpheres::Lanes travels_of(const BodyCapsules& before, const BodyCapsules& after) {
+  PartSpheres::Lanes rows{};
   for (std::size_t i = 0; i < kPartCount; ++i) rows[i] = travel(before[i], after[i]);
   return rows;
+}
+
+constexpr std::array<std::uint32_t, kPartLanes> kLaneBits = [] {
+  std::array<std::uint32_t, kPartLanes> bits{};
+  for (std::size_t i = 0; i < kPartCount; ++i) bits[i] = 1u << i;
+  return bits;
+}();
+
+// The lane's bit where a < b, by the sign of a - b: a branch would keep lanes from side by side.
+std::uint32_t bit_where_below(std::size_t lane, float a, float b) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::int32_t>(a - b) >> 31) & kLaneBits[lane];
+}
+
+// The spheres, bit index(part), that come nearer to `center` than their radius and `more` of each.
+std::uint32_t nearer_than(const PartSpheres& spheres, Vec3 center, const PartSpheres::Lanes& more) {
+  std::uint32_t near = 0;
+  for (std::size_t i = 0; i < kPartLanes; ++i) {
+    const float x = spheres.x[i] - center.x, y = spheres.y[i] - center.y,
+                z = spheres.z[i] - center.z;
+    const float far = std::max(0.0f, spheres.radius[i] + more[i]);
+    near |= bit_where_below(i, x * x + y * y + z * z, far * far);
+  }
+  return near;
 }
 
 StrikeTable strike_table(const Strike& strike, const ActionTable& table) {
@@ -109,15 +101,13 @@ void set_frame(ActionTable& table, std::size_t age, const BodyModel& body, const
     table.bound.resize(age + 1);
     table.box.resize(age + 1);
     table.spheres.resize(age + 1);
-    table.groups.resize(age + 1);
   }
   const BodyCapsules own = capsules(body, world_pose(body.skeleton, pose));
   table.capsules[age] = own;
   table.travel[age] = travels_of(table.capsules[age > 0 ? age - 1 : 0], own);
   table.bound[age] = bound_of(own);
   table.box[age] = box_of(own);
-  table.spheres[age] = spheres_of(own);
-  table.groups[age] = groups_of(table.spheres[age]);
+  table.spheres[age] = PartSpheres(own);
   for (const Capsule& c : own) {
     const float far = std::max(ground_distance(c.a), ground_distance(c.b)) + c.radius;
     table.extent = std::max(table.extent, far);
@@ -176,12 +166,11 @@ constexpr float kTickTravel = 0.25f;  // m: farther than a blow and what it meet
 
 // Whether any of the parts, whose spheres are seen from where the box is given, may touch it within
 // a tick.
-bool may_touch(const std::array<Sphere, kPartCount>& spheres, std::uint32_t parts,
-               const Frame& seen, const Box& box) {
+bool may_touch(const PartSpheres& spheres, std::uint32_t parts, const Frame& seen, const Box& box) {
   for (; parts != 0; parts &= parts - 1) {
-    const Sphere& sphere = spheres[static_cast<std::size_t>(std::countr_zero(parts))];
-    const Vec3 center = seen.to_outer(sphere.center);
-    const float reach = sphere.radius + kTickTravel;
+    const auto i = static_cast<std::size_t>(std::countr_zero(parts));
+    const Vec3 center = seen.to_outer(spheres.center(i));
+    const float reach = spheres.radius[i] + kTickTravel;
     if (glm::distance2(center, glm::clamp(center, box.low, box.high)) < reach * reach) return true;
   }
   return false;
@@ -191,25 +180,13 @@ bool may_touch(const std::array<Sphere, kPartCount>& spheres, std::uint32_t part
 // begins and by how far they go.
 std::uint32_t parts_near(std::span<const SweptPart> limb, const ActionTable& target, Tick age) {
   constexpr float kRounding = 2e-3f;  // m
-  const auto& spheres = target.spheres_at(age - 1);
-  const auto& groups = target.groups_at(age - 1);
-  const auto& travels = target.travel_at(age);
-  const auto within = [](Vec3 from, Vec3 to, float far) {
-    return glm::distance2(from, to) < far * far;
-  };
   std::uint32_t near = 0;
   for (const SweptPart& one : limb) {
-    const Vec3 center = (one.before.a + one.before.b) * 0.5f;
     const float reach = 0.5f * glm::distance(one.before.a, one.before.b) + one.before.radius +
                         travel(one.before, one.after) + kRounding;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      const float far = reach + groups[g].radius + kTickTravel;
-      if (!within(center, groups[g].center, far)) continue;
-      for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
-        const float near_by = reach + spheres[i].radius + travels[i];
-        if (within(center, spheres[i].center, near_by)) near |= 1u << i;
-      }
-    }
+    PartSpheres::Lanes more = target.travel_at(age);
+    for (float& far : more) far += reach;
+    near |= nearer_than(target.spheres_at(age - 1), (one.before.a + one.before.b) * 0.5f, more);
   }
   return near;
 }
@@ -226,6 +203,17 @@ std::uint32_t intended(const InFlight& who, Tick tick) {
 }
 
 }  // namespace
+
+PartSpheres::PartSpheres(const BodyCapsules& capsules) {
+  constexpr float kNowhere = 1e6f;  // m
+  x.fill(kNowhere);
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Capsule& c = capsules[i];
+    const Vec3 middle = (c.a + c.b) * 0.5f;
+    x[i] = middle.x, y[i] = middle.y, z[i] = middle.z;
+    radius[i] = 0.5f * glm::distance(c.a, c.b) + c.radius;
+  }
+}
 
 Frame::Frame(const Placement& placement)
     : x(placement.x),
@@ -423,7 +411,6 @@ ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
   table.length = static_cast<Tick>(table.clip_ages.size()) - 1;
   table.capsules = paced(table.capsules, table.clip_ages);
   table.spheres = paced(table.spheres, table.clip_ages);
-  table.groups = paced(table.groups, table.clip_ages);
   table.travel = paced(table.travel, table.clip_ages);
   table.box = paced(table.box, table.clip_ages);
   table.bound = paced(table.bound, table.clip_ages);
@@ -559,55 +546,41 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   const Sphere& bound_a = a.table->bound_at(age_a);
   if (!near({seen.to_outer(bound_a.center), bound_a.radius}, bound_b)) return 0;
   if (boxes_apart(seen, a.table->box_at(age_a), b.table->box_at(age_b), least)) return 0;
-  const auto &spheres_a = a.table->spheres_at(age_a), &spheres_b = b.table->spheres_at(age_b);
-  // The parts of each that are farther than `least` in the box around the other's. A part is no
-  // deeper in another than the sphere around it is in a box around that one.
-  std::array<Vec3, kPartCount> centers;  // of a's, seen from b
-  std::array<std::uint8_t, kPartCount> own, their;
-  std::size_t own_count = 0, their_count = 0;
-  const float slack = std::max(0.0f, least - kBoxRounding);
-  const auto touches_box = [slack](Vec3 center, float radius, const Box& box) {
-    const float reach = radius - slack;
-    const Vec3 nearest = glm::clamp(center, box.low, box.high);
-    return reach > 0 && glm::distance2(center, nearest) <= reach * reach;
-  };
-  const std::uint32_t excepted_a = intended(a, tick), excepted_b = intended(b, tick);
-  Box reached{Vec3(1e9f), Vec3(-1e9f)};
+  // The parts of a that are farther than `least` in the box around b, and of those the parts of b
+  // whose spheres are. A part is no deeper in another than the sphere around it is.
+  const PartSpheres &spheres_a = a.table->spheres_at(age_a),
+                    &spheres_b = b.table->spheres_at(age_b);
   const Box& box_b = b.table->box_at(age_b);
-  const auto &groups_a = a.table->groups_at(age_a), &groups_b = b.table->groups_at(age_b);
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    if (!touches_box(seen.to_outer(groups_a[g].center), groups_a[g].radius, box_b)) continue;
-    for (std::size_t i = kGroupBegin[g]; i < kGroupBegin[g + 1]; ++i) {
-      const float radius = spheres_a[i].radius;
-      const Vec3 center = seen.to_outer(spheres_a[i].center);
-      if (((excepted_a >> i) & 1u) != 0 || !touches_box(center, radius, box_b)) continue;
-      centers[i] = center;
-      own[own_count++] = static_cast<std::uint8_t>(i);
-      reached.low = glm::min(reached.low, center - radius);
-      reached.high = glm::max(reached.high, center + radius);
-    }
+  const float slack = std::max(0.0f, least - kBoxRounding);
+  PartSpheres::Lanes x, z;  // of a's centers, seen from b
+  std::uint32_t own = 0;
+  for (std::size_t i = 0; i < kPartLanes; ++i) {
+    x[i] = seen.x + seen.cosine * spheres_a.x[i] + seen.sine * spheres_a.z[i];
+    z[i] = seen.z - seen.sine * spheres_a.x[i] + seen.cosine * spheres_a.z[i];
+    const float y = spheres_a.y[i];
+    const float out_x = std::max(0.0f, std::max(box_b.low.x - x[i], x[i] - box_b.high.x));
+    const float out_y = std::max(0.0f, std::max(box_b.low.y - y, y - box_b.high.y));
+    const float out_z = std::max(0.0f, std::max(box_b.low.z - z[i], z[i] - box_b.high.z));
+    const float reach = std::max(0.0f, spheres_a.radius[i] - slack);
+    const float out = out_x * out_x + out_y * out_y + out_z * out_z;
+    own |= bit_where_below(i, out, reach * reach);
   }
-  if (own_count == 0) return 0;
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    if (!touches_box(groups_b[g].center, groups_b[g].radius, reached)) continue;
-    for (std::size_t j = kGroupBegin[g]; j < kGroupBegin[g + 1]; ++j) {
-      if (((excepted_b >> j) & 1u) != 0) continue;
-      if (!touches_box(spheres_b[j].center, spheres_b[j].radius, reached)) continue;
-      their[their_count++] = static_cast<std::uint8_t>(j);
-    }
-  }
+  own &= ~intended(a, tick);
+  const std::uint32_t wanted = ~intended(b, tick);
   const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
   const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
   float deepest = 0;
-  for (std::size_t n = 0; n < own_count; ++n) {
-    const std::size_t i = own[n];
+  for (; own != 0; own &= own - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(own));
+    PartSpheres::Lanes more;
+    more.fill(spheres_a.radius[i] - slack);
+    std::uint32_t their = nearer_than(spheres_b, {x[i], spheres_a.y[i], z[i]}, more) & wanted;
+    if (their == 0) continue;
     const Capsule& mine = capsules_a[i];
-    const Sphere sphere{centers[i], spheres_a[i].radius};
-    for (std::size_t m = 0; m < their_count; ++m) {
-      if (!near(sphere, spheres_b[their[m]])) continue;
-      const Capsule& other = capsules_b[their[m]];
-      const float distance =
-          segment_distance(seen.to_outer(mine.a), seen.to_outer(mine.b), other.a, other.b).distance;
+    const Vec3 from = seen.to_outer(mine.a), to = seen.to_outer(mine.b);
+    for (; their != 0; their &= their - 1) {
+      const Capsule& other = capsules_b[static_cast<std::size_t>(std::countr_zero(their))];
+      const float distance = segment_distance(from, to, other.a, other.b).distance;
       deepest = std::max(deepest, mine.radius + other.radius - distance);
     }
   }

@@ -108,8 +108,18 @@ struct NextLanes {
   std::array<bool, kLanes> particular{};
 };
 
-// The parts of a body as five groups of neighbours: trunk and head, arms, legs.
-inline constexpr std::size_t kGroups = 5;
+// Spheres around the parts of a body, side by side (SIMD); those behind the last are nowhere near
+// anything.
+inline constexpr std::size_t kPartLanes = 20;
+static_assert(kPartLanes >= kPartCount);
+struct PartSpheres {
+  using Lanes = std::array<float, kPartLanes>;
+  Lanes x{}, y{}, z{}, radius{};
+
+  explicit PartSpheres(const BodyCapsules& capsules);
+  PartSpheres() = default;
+  Vec3 center(std::size_t part) const { return {x[part], y[part], z[part]}; }
+};
 
 inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
@@ -117,16 +127,15 @@ struct ActionTable {
   ActionId id;  // of MotionTables::at; beyond the library's actions where it is a part of one
   const Action* action = nullptr;
   Tick length = 0;
-  std::uint64_t motion = 0;            // its number where it is of a motion in flight, else 0
-  std::vector<Tick> clip_ages;         // of one: the clip's age, by ticks since the launch
-  std::vector<BodyCapsules> capsules;  // action space, one a tick
-  std::vector<std::array<Sphere, kPartCount>> spheres;  // around the capsules
-  std::vector<std::array<Sphere, kGroups>> groups;      // around the spheres of each group
-  std::vector<std::array<float, kPartCount>> travel;    // m: how far each goes in the tick before
-  std::vector<Placement> root;                          // scaled to the body
-  std::vector<Box> box;                                 // around the capsules
-  std::vector<Sphere> bound;                            // of the capsules
-  std::vector<Pose> pose;                               // scaled to the body
+  std::uint64_t motion = 0;                // its number where it is of a motion in flight, else 0
+  std::vector<Tick> clip_ages;             // of one: the clip's age, by ticks since the launch
+  std::vector<BodyCapsules> capsules;      // action space, one a tick
+  std::vector<PartSpheres> spheres;        // around the capsules
+  std::vector<PartSpheres::Lanes> travel;  // m: how far each goes in the tick before
+  std::vector<Placement> root;             // scaled to the body
+  std::vector<Box> box;                    // around the capsules
+  std::vector<Sphere> bound;               // of the capsules
+  std::vector<Pose> pose;                  // scaled to the body
   std::vector<StrikeTable> strikes;
   std::size_t first_strike = 0;  // its number among all strikes of the library's actions
   float extent = 0;              // largest distance of the body from the origin on the ground, m
@@ -145,9 +154,8 @@ struct ActionTable {
   const BodyCapsules& capsules_at(Tick age) const { return capsules[at(age)]; }
   const Placement& root_at(Tick age) const { return root[at(age)]; }
   const Sphere& bound_at(Tick age) const { return bound[at(age)]; }
-  const std::array<Sphere, kPartCount>& spheres_at(Tick age) const { return spheres[at(age)]; }
-  const std::array<Sphere, kGroups>& groups_at(Tick age) const { return groups[at(age)]; }
-  const std::array<float, kPartCount>& travel_at(Tick age) const { return travel[at(age)]; }
+  const PartSpheres& spheres_at(Tick age) const { return spheres[at(age)]; }
+  const PartSpheres::Lanes& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
   const NextAction* find_next(ActionId to) const;
