@@ -204,15 +204,14 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
 }
 
 // An action out of the own stance, by a direct edge, aimed at the opponent.
-void Duel::launch_aimed(Node& node, int who, ActionId action) const {
+void Duel::launch_aimed(Node& node, int who, const NextAction& next) const {
   Duelist& self = node.side[static_cast<std::size_t>(who)];
   const Duelist& opponent = node.side[static_cast<std::size_t>(1 - who)];
   const SideSetup& own = side(who);
-  const NextAction* next = self.flight.table->find_next(action);
-  const Placement placement = (Frame(self.flight.root_at(node.now)) * next->alignment).placement();
-  const Action& what = own.tables->library().action(action);
+  const Placement placement = (Frame(self.flight.root_at(node.now)) * next.alignment).placement();
+  const Action& what = *next.table->action;
   Launch launch;
-  launch.action = action;
+  launch.action = next.to;
   launch.start = node.now;
   launch.end = node.now + what.length();
   launch.placement = placement;
@@ -226,7 +225,8 @@ void Duel::launch_aimed(Node& node, int who, ActionId action) const {
 void Duel::launch_chosen(Node& node, const Move& move) const {
   const SideSetup& own = side(move.side);
   const std::vector<ActionId>& path = move.next->path;
-  launch_aimed(node, move.side, move.first());
+  const ActionTable& from = *node.side[move.side].flight.table;
+  launch_aimed(node, move.side, path.empty() ? *move.next : *from.find_next(path.front()));
   auto& queue = node.side[move.side].queue;
   for (std::size_t i = 0; i < path.size(); ++i) {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
@@ -274,7 +274,7 @@ Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   if (move.forced && self.queue[0].valid()) {
     std::rotate(self.queue.begin(), self.queue.begin() + 1, self.queue.end());
     self.queue.back() = {};
-    launch_aimed(child.node, move.side, move.action);
+    launch_aimed(child.node, move.side, *self.flight.table->find_next(move.action));
   } else if (move.forced) {
     launch_forced(child.node, move.side, move.action);
   } else {

@@ -187,7 +187,7 @@ class Duel {
   double discount_at(Tick at) const;
   void note_term(int side, Term term, double points, std::int32_t credited) const;
   void launch_forced(Node& node, int side, ActionId action) const;
-  void launch_aimed(Node& node, int side, ActionId action) const;
+  void launch_aimed(Node& node, int side, const NextAction& next) const;
   void launch_chosen(Node& node, const Move& move) const;
 
   // From node.now to the next decision, hit or horizon; the fault is what the mover is blamed for.
