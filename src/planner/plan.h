@@ -62,7 +62,8 @@ struct Plan {
   bool reproducible = true;  // false under PlanLimits: another run may look less or farther ahead
 };
 
-// What does not change during a fight. Immutable but for the memo and the use counts.
+// What does not change during a fight. Immutable but for the memo, the use counts and the searches,
+// which it keeps from plan to plan: one plan at a time.
 class Planner {
  public:
   // `store`, where there is one, is looked into before an impulse step is made, and added to; it

@@ -767,6 +767,37 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
             0.05f);
 }
 
+// Seen was only what the opponent launched: of what may come of it, the best for it is foreseen.
+TEST_F(DuelTest, OfWhatBeginsAsWasSeenTheBestIsForeseen) {
+  const MotionLibrary low = with_low_stance();
+  const MotionTables low_tables(low, make_body({}));
+  const std::vector<std::int32_t> damage(low_tables.strike_count(), 0);
+  const ActionId sink = low.find("sink"), blow = low.find("low_cross");
+  set_style({});
+  Habits habits;
+  for (int i = 0; i < 100; ++i) habits.note(situation_of(3, Kind::idle, false), sink);
+  setup_.habits = &habits;
+  setup_.learning = 1;
+  FightState state = facing(3);
+  for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
+  for (const ActionId best : {sink, blow}) {
+    for (SideSetup& side : setup_.side) {
+      side.tables = &low_tables;
+      side.launch.assign(low.actions().size(), -90'000);
+      side.launch[best.at()] = 0;
+      side.clean_damage = damage;
+    }
+    DuelNode node = Duel::root(setup_, state);
+    node.side[0].flight.launch.end = 60;  // the opponent acts
+    Duel game(setup_, 400);
+    std::vector<DuelMove> moves;
+    game.moves(node, moves);
+    ASSERT_EQ(moves.size(), 1u);
+    EXPECT_EQ(moves[0].action, best);
+    EXPECT_EQ(moves[0].first(), sink);
+  }
+}
+
 TEST_F(DuelTest, PlanLaunchesAPathsFirstActionAndNamesTheRest) {
   const MotionLibrary low = with_low_stance();
   Style style;
