@@ -62,7 +62,7 @@ float reaching(const StrikeAim& strike, Vec3 target) {
 // m: how far a root goes at most from where it is at `now`, from then on.
 float roams_from(const InFlight& flight, Tick now) {
   constexpr float kRounding = 0.001f;
-  if (now < flight.aimed_from && flight.launch.aim != 0) return 1e3f;  // it is turning
+  if (flight.turning(now)) return 1e3f;
   const ActionTable& table = *flight.table;
   const Placement& here = table.root_at(flight.age(now));
   float farthest = 0;

@@ -295,13 +295,13 @@ std::vector<NextLanes> lanes_of(std::span<const NextAction> next) {
     block.sine[lane] = alignment.sine, block.cosine[lane] = alignment.cosine;
     block.end_x[lane] = end.x, block.end_z[lane] = end.z;
     block.end_sine[lane] = end.sine, block.end_cosine[lane] = end.cosine;
-    block.attacks[lane] = next[i].attacks ? 1.0f : 0.0f;
+    block.attacks[lane] = next[i].strikes.empty() ? 0.0f : 1.0f;
     block.within[lane] = within(next[i].strikes);
     block.lead[lane] = next[i].lead;
     block.until[lane] = next[i].lead + next[i].length;
     block.to[lane] = next[i].to.value;
     block.choice[lane] = next[i].choice;
-    block.particular[lane] = next[i].particular;
+    block.particular[lane] = next[i].defense != nullptr && next[i].defense->particular();
   }
   return blocks;
 }
@@ -447,8 +447,6 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   next.to = to;
   // A feint stands among the attacks: as a step it would take a real one's place in every list.
   next.choice = table.action->feint ? Choice::attack : choice_of(table.action->kind);
-  next.attacks = table.action->attacks();
-  next.particular = table.action->defense && table.action->defense->particular();
   next.path = path->via;
   next.lead = path->ticks;
   next.length = table.length;
@@ -539,12 +537,9 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   const Tick age_a = a.age(tick), age_b = b.age(tick);
   const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
   const Sphere& bound_b = b.table->bound_at(age_b);
-  const auto near = [least](const Sphere& one, const Sphere& other) {
-    const float reach = one.radius + other.radius - least;
-    return reach > 0 && glm::distance2(one.center, other.center) < reach * reach;
-  };
   const Sphere& bound_a = a.table->bound_at(age_a);
-  if (!near({seen.to_outer(bound_a.center), bound_a.radius}, bound_b)) return 0;
+  const float bounds = std::max(0.0f, bound_a.radius + bound_b.radius - least);
+  if (glm::distance2(seen.to_outer(bound_a.center), bound_b.center) >= bounds * bounds) return 0;
   if (boxes_apart(seen, a.table->box_at(age_a), b.table->box_at(age_b), least)) return 0;
   // The parts of a that are farther than `least` in the box around b, and of those the parts of b
   // whose spheres are. A part is no deeper in another than the sphere around it is.

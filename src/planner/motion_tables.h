@@ -75,8 +75,6 @@ inline constexpr float kMostGap = .28f, kMostPast = .75f, kMostAside = .40f;
 struct NextAction {
   ActionId to;
   Choice choice = Choice::step;
-  bool attacks = false;
-  bool particular = false;             // a defense that answers particular attacks
   Tick lead = 0;                       // length of the path
   Tick length = 0;                     // of `to`
   std::size_t first_strike = 0;        // ActionTable::first_strike
@@ -105,7 +103,7 @@ struct NextLanes {
   std::array<Tick, kLanes> lead{}, until{};  // length of the path, and with that of `to`
   std::array<std::int32_t, kLanes> to{};     // number of the action
   std::array<Choice, kLanes> choice{};
-  std::array<bool, kLanes> particular{};
+  std::array<bool, kLanes> particular{};  // a defense that answers particular attacks
 };
 
 // Spheres around the parts of a body, side by side (SIMD); those behind the last are nowhere near
