@@ -103,7 +103,8 @@ class SearchStop {
 };
 
 struct SearchSettings : SearchDevices {
-  int table_bits = 14;               // log2 of the table's size
+  int table_bits = 14;               // log2 of the table's size at first
+  int most_table_bits = 18;          // and of what it may grow to
   std::uint64_t node_limit = 0;      // 0 is none
   const SearchStop* stop = nullptr;  // looked at every few nodes
   SearchCost* cost = nullptr;        // of one thread
@@ -190,6 +191,7 @@ class Search {
     counts_ = {};
     first_generation_ = ++generation_;
     table_.resize(settings.table ? std::size_t{1} << settings.table_bits : 0);
+    stored_ = 0;
     for (const auto& one : levels_) one->killers = {kNoMove, kNoMove};
     history_ = {};
     history_most_ = {};
@@ -277,6 +279,29 @@ class Search {
 
   Entry* entry_of(std::uint64_t hash) {
     return settings_.table ? &table_[hash & (table_.size() - 1)] : nullptr;
+  }
+
+  void grow_table() {
+    if (4 * table_.size() > std::size_t{1} << settings_.most_table_bits) return;
+    std::vector<Entry> larger(4 * table_.size());
+    std::swap(table_, larger);
+    stored_ = 0;
+    for (const Entry& entry : larger) {
+      if (entry.generation < first_generation_) continue;
+      Entry* place = entry_of(entry.hash);
+      stored_ += place->generation < first_generation_ ? 1 : 0;
+      *place = entry;
+    }
+  }
+
+  // What is replaced in a table is a move that is tried late, so it grows before that happens much.
+  void store(const Entry& entry) {
+    Entry* place = entry_of(entry.hash);
+    if (place->generation < first_generation_ && ++stored_ > table_.size() / 16) {
+      grow_table();
+      place = entry_of(entry.hash);
+    }
+    *place = entry;
   }
 
   // The node's place in the tree, at `kept` from then on; with no room left a passing one.
@@ -397,7 +422,7 @@ class Search {
 
     const std::int32_t gained = game.gained(node);
     const std::uint64_t hash = spot.hash;
-    Entry* entry = entry_of(hash);
+    const Entry* entry = entry_of(hash);
     std::uint32_t first = kNoMove;
     if (entry != nullptr && entry->generation >= first_generation_ && entry->hash == hash) {
       first = entry->best;
@@ -410,11 +435,11 @@ class Search {
       }
     }
     const Found found = visit_children(game, node, actor, alpha, beta, depth, first, spot, line);
-    if (!aborted_ && entry != nullptr) {
+    if (!aborted_ && settings_.table) {
       const Bound bound = found.value <= alpha  ? Bound::upper
                           : found.value >= beta ? Bound::lower
                                                 : Bound::exact;
-      *entry = {hash, found.value - gained, found.best, generation_, bound};
+      store({hash, found.value - gained, found.best, generation_, bound});
     }
     return found.value;
   }
@@ -569,6 +594,7 @@ class Search {
   bool aborted_ = false;
   std::uint32_t generation_ = 0, first_generation_ = 0;  // what an older one wrote is forgotten
   std::vector<Entry> table_;
+  std::size_t stored_ = 0;  // in it
   std::vector<std::unique_ptr<Level>> levels_;
   std::array<std::vector<std::uint64_t>, 2> history_;
   std::array<std::uint64_t, 2> history_most_{};

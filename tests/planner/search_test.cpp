@@ -69,8 +69,9 @@ static_assert(Game<Toy>);
 // met on two ways (transpositions), and nodes whose range is known, more or less well.
 class RandomTree {
  public:
-  explicit RandomTree(std::uint64_t seed, bool faults) : random_(seed), faults_(faults) {
-    depth_ = 2 + random_.below(5);
+  explicit RandomTree(std::uint64_t seed, bool faults, int deeper = 0)
+      : random_(seed), faults_(faults) {
+    depth_ = 2 + deeper + random_.below(5);
     width_ = 1 + random_.below(5);
     sound_ = random_.below(4);
     grow(0);
@@ -136,7 +137,7 @@ SearchSettings variant(int bits) {
   settings.history = (bits & 4) != 0;
   settings.answers = (bits & 8) != 0;
   settings.null_window = (bits & 16) != 0;
-  settings.table_bits = 6;  // small, so that entries are replaced
+  settings.table_bits = settings.most_table_bits = 6;  // small, so that entries are replaced
   return settings;
 }
 
@@ -283,6 +284,32 @@ TEST(SearchTest, LongerHorizonKeepsNoValues) {
   for (Toy::Vertex& vertex : tree) vertex.value += 1000;  // the same states, other values
   search.next_horizon();
   EXPECT_EQ(search.run(toy, {}, kWorst, kBest, line), 1000);
+}
+
+// A table that was too small grows, and knows what one knows that was large from the beginning.
+TEST(SearchTest, ATableGrowsWithWhatItHolds) {
+  std::array<std::uint64_t, 3> nodes{};  // always small, growing, always large
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomTree tree(seed, false, 5);
+    Toy toy{&tree.vertices()};
+    SearchCounts counts;
+    const std::int32_t truth = minimax(toy, Toy::Node{}, counts);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      SearchSettings settings;
+      settings.killers = settings.history = false;
+      settings.table_bits = i == 2 ? 14 : 0;
+      settings.most_table_bits = i == 0 ? 0 : 14;
+      Search<Toy> search(settings);
+      std::vector<Toy::Move> line;
+      for (int horizon = 0; horizon < 2; ++horizon) {
+        ASSERT_EQ(search.run(toy, {}, kWorst, kBest, line), truth) << seed;
+        nodes[i] += search.counts().nodes;
+        search.next_horizon();
+      }
+    }
+  }
+  EXPECT_LT(nodes[1], 0.9 * static_cast<double>(nodes[0]));
+  EXPECT_LT(nodes[1], 1.01 * static_cast<double>(nodes[2]));
 }
 
 // What a search has done before, on another tree with the same names, changes nothing either.
