@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/hash.h"
+#include "motion/strike_fit.h"
 
 namespace ringcraft {
 namespace {
@@ -99,9 +100,21 @@ Launch following(const MotionLibrary& library, const Launch& last, ActionId next
   return launch;
 }
 
+float turned_away(const MotionLibrary& library, const Action& action, Tick age) {
+  constexpr float kBroughtBack = radians(90);
+  const Pose* guard = standing_guard(library, action.stance);
+  const float faces = guard == nullptr ? 0.0f : heading_of(guard->rotation[0]);
+  const float off = wrapped_angle(heading_of(action.clip.at(age).rotation[0]) -
+                                  action.clip.root_at(age).yaw - faces);
+  return off - std::clamp(off, -kBroughtBack, kBroughtBack);
+}
+
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
                        Tick start, float scale) {
-  Launch launch = launched(library, response, start, root_at(library, cut, start, scale));
+  Placement placement = root_at(library, cut, start, scale);
+  placement.yaw = wrapped_angle(
+      placement.yaw + turned_away(library, library.action(cut.action), start - cut.start));
+  Launch launch = launched(library, response, start, placement);
   launch.forced = true;
   if (library.action(response).ends_lying != Lying::none) launch.end += kLyingTicks;
   return launch;

@@ -82,8 +82,12 @@ inline constexpr Tick kLyingTicks = 100;
 // out, what else the attack holds is not thrown. The launch's end for anything but an attack.
 Tick free_after_fall(const Action& action, const Launch& launch, Tick now);
 
-// The launch of a response at tick `start`, from where the cut action stands. A knockdown lasts
-// until the get-up begins.
+// How far, rad, the body that shows a clip `age` ticks after its beginning has turned from the way
+// its root faces, as in a spin, beyond what an answer brings back: that begins turned by so much.
+float turned_away(const MotionLibrary& library, const Action& action, Tick age);
+
+// The launch of a response at tick `start`, from where the cut action stands and the way its body
+// has turned. A knockdown lasts until the get-up begins.
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
                        Tick start, float scale);
 

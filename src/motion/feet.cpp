@@ -9,7 +9,7 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kStraightest = 0.98f;     // of the leg's length: beyond it the hips sink
+constexpr float kStraightest = 0.95f;     // of the leg's length: beyond it the hips sink
 constexpr float kSinkSoft = 0.012f;       // m: over which that sets in, and more where they rise
 constexpr float kSinkSoftest = 0.05f;     // m
 constexpr float kSinkBrake = 25;          // m/s2: so fast that they are braked by this
@@ -36,6 +36,11 @@ constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster t
 constexpr float kSlowsAt = 16;            // 1/s: times its height over it, after a simulation
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongestLeg = 0.9995f;    // of its length: where nothing is eased any more
+constexpr float kKneeAcceleration = 60;   // m/s2: of a knee off its leg's line, beyond the clip's
+constexpr float kKneeRate = 30;           // 1/s: at which what eases it fades
+constexpr float kEased = 1e-4f;           // m: less than that is nothing
+constexpr float kMostEasing = 0.015f;     // m: by which the hips move for that
+constexpr float kUpright = 0.7f;          // of its length: a leg that stands no higher is not eased
 constexpr float kLying = 0.6f;            // of the leg's length: hips lower than that do not stand
 constexpr float kCrouched = 0.4f;         // of the leg's length: nor lower than that
 constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
@@ -51,6 +56,14 @@ float soft_positive(float x, float width) {
   if (x >= width) return x;
   if (x <= -width) return 0;
   return (x + width) * (x + width) / (4 * width);
+}
+
+// How far, m, a knee stands off the line from hip to ankle.
+float bend_of(const WorldPose& world, const Limb& leg) {
+  const Vec3 hip = world.position[index(leg.root)], knee = world.position[index(leg.middle)],
+             ankle = world.position[index(leg.end)];
+  const Vec3 line = normalized_or(ankle - hip, -kUp), thigh = knee - hip;
+  return glm::length(thigh - line * glm::dot(thigh, line));
 }
 
 // Lowest height of the ball at which neither ball nor heel of a foot turned so is under the floor.
@@ -100,12 +113,14 @@ void Feet::show(const WorldPose& world) {
   for (Foot& foot : feet_) {
     foot.ball_before = foot.ball;
     foot.shown_before = foot.shown;
+    foot.knee.shown_before = foot.knee.shown;
   }
   amend(world);
   if (started_) return;
   for (Foot& foot : feet_) {
     foot.ball_before = foot.ball;
     foot.shown_before = foot.shown;
+    foot.knee.shown_before = foot.knee.shown;
   }
   started_ = true;
 }
@@ -115,6 +130,7 @@ void Feet::amend(const WorldPose& world) {
   for (const Side side : kEachFoot) {
     of(side).ball = world.position[index(toes(side))];
     of(side).shown = world.rotation[index(leg(side).end)];
+    of(side).knee.shown = bend_of(world, leg(side));
   }
 }
 
@@ -133,6 +149,10 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
                              seconds, 0, hips_turn);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
+  Knee& knee = foot.knee;  // what it was eased by is part of what is shown
+  const float clip = bend_of(now, leg(side)), clip_moves = bend_of(after, leg(side)) - clip;
+  knee = {knee.shown,        knee.shown_before, knee.shown,
+          knee.shown_before, clip - clip_moves, clip - 2 * clip_moves};
   foot.reach = reach_share(skeleton_, leg(side), shown);
   foot.reach_left = 1;
   foot.over = too_high(shown.position[index(leg(side).root)], shown.position[end],
@@ -190,8 +210,11 @@ void Feet::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
       {least_seconds, glm::length(offset) / kStepSpeed,
        after_simulation_ ? std::min(kFastFoot * glm::length(velocity), kLongestStep) : 0.0f});
   foot.offset = {offset, velocity, foot.rise_seconds};
-  foot.rise = std::max({0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2,
-                        after_simulation_ ? clearing_rise(foot.offset, foot.rise_seconds) : 0.0f});
+  foot.rise = std::max(
+      {0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2,
+       after_simulation_ || (mode == Mode::step && glm::length(on_ground(velocity)) > kLandingSpeed)
+           ? clearing_rise(foot.offset, foot.rise_seconds)
+           : 0.0f});
   foot.rise_age = 0;
   if (!after_simulation_) return;
   // The arc's sin^2 takes 2 (pi / T)^2 of its height in acceleration.
@@ -364,6 +387,51 @@ float Feet::too_high(Vec3 hip, Vec3 ankle, float straightest) const {
   return line.y - std::sqrt(reach * reach - across * across);
 }
 
+// As a critically damped spring lets it, once what is wanted of it starts or stops in a jerk that
+// is not the clip's.
+void Feet::Knee::follow(float wants, float clip_wants) {
+  const float own = std::abs(clip_wants - 2 * clip + clip_before);
+  const float most = kKneeAcceleration * kTickSeconds * kTickSeconds + own;
+  const float jerk = wants - 2 * wanted + wanted_before;
+  const float started = velocity - (jerk - std::clamp(jerk, -most, most)) / kTickSeconds;
+  const float slope = started + eased * kKneeRate;
+  const float fade = std::exp(-kKneeRate * kTickSeconds);
+  eased = (eased + slope * kTickSeconds) * fade;
+  velocity = slope * fade - eased * kKneeRate;
+  wanted_before = wanted;
+  wanted = wants;
+  clip_before = clip;
+  clip = clip_wants;
+}
+
+// How far, m, the hips rise so that the knee stands where it is eased to.
+float Feet::rise_for(Side side, const WorldPose& world) const {
+  const Knee& knee = of(side).knee;
+  const Limb limb = leg(side);
+  const float thigh = skeleton_.bone(limb.middle), shin = skeleton_.bone(limb.end);
+  const Vec3 line = world.position[index(limb.root)] - world.position[index(limb.end)];
+  const float length = glm::length(line);
+  if (std::abs(knee.eased) < kEased || line.y < kUpright * (thigh + shin)) return 0;
+  const float stands = std::clamp(knee.wanted + knee.eased, 0.0f, std::min(thigh, shin));
+  const auto along = [&](float bone) { return std::sqrt(bone * bone - stands * stands); };
+  return std::clamp((along(thigh) + along(shin) - length) * length / line.y, -kMostEasing,
+                    kMostEasing);
+}
+
+// The same of whichever knee asks more.
+float Feet::knees_ask(const WorldPose& world, const WorldPose& clip) {
+  float most = 0;
+  for (const Side side : kEachFoot) {
+    Knee& knee = of(side).knee;
+    const float wants = bend_of(world, leg(side)), clip_wants = bend_of(clip, leg(side));
+    if (!started_) knee = {wants, wants, wants, wants, clip_wants, clip_wants};
+    knee.follow(wants, clip_wants);
+    const float rise = rise_for(side, world);
+    if (std::abs(rise) > std::abs(most)) most = rise;
+  }
+  return most;
+}
+
 void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, Pose& pose) {
   const WorldPose world = world_pose(skeleton_, pose);
   const WorldPose clip_world = world_pose(skeleton_, clip_pose);
@@ -409,10 +477,21 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
   sink_.follow(needed);
   pose.hips.y -= sink_.value;
   // 2. The legs follow.
+  const auto legs_follow = [&] {
+    for (const Side side : kEachFoot) {
+      const auto i = static_cast<std::size_t>(side);
+      move_limb_end(skeleton_, leg(side), ankle[i], straightest[i], pose);
+    }
+  };
+  legs_follow();
+  const float rise = knees_ask(world_pose(skeleton_, pose), clip_world);
+  if (rise != 0) {
+    pose.hips.y += rise;
+    legs_follow();
+  }
   for (const Side side : kEachFoot) {
     const auto i = static_cast<std::size_t>(side);
     const Limb limb = leg(side);
-    move_limb_end(skeleton_, limb, ankle[i], straightest[i], pose);
     set_world_rotation(skeleton_, limb.end, foot_rotation[i], pose);
     const Quat toe_rotation = foot_rotation[i] * pose.rotation[index(toes(side))];
     pose.rotation[index(toes(side))] = glm::normalize(

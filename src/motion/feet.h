@@ -51,6 +51,14 @@ class Feet {
     float at_first = -1;  // m: what that took at the seam; below 0: not known yet
     float of(float height, float clip_height, float begun);
   };
+  // How far, m, a knee stands off the line from hip to ankle: one of a leg that is nearly straight
+  // goes far where its foot goes little, and starts and stops gently all the same.
+  struct Knee {
+    float shown = 0, shown_before = 0;
+    float wanted = 0, wanted_before = 0, clip = 0, clip_before = 0;  // one tick and two ticks ago
+    float eased = 0, velocity = 0;  // by how much it is shown off what is wanted, m and m/s
+    void follow(float wants, float clip_wants);
+  };
   struct Foot {
     Mode mode = Mode::swing;
     Vec3 place{};            // of the ball of the foot while held, on the ground plane
@@ -68,8 +76,9 @@ class Feet {
     Lift lift;                   // of one that goes by joints
     Vec3 clip_ball{};            // the clip's, one tick ago
     Quat clip_turn;              // the same of the foot's world rotation
-    float reach = 0;             // at the seam, as a share of the leg's length
-    float reach_left = 0;        // 1 at the seam .. 0: what of that still counts
+    Knee knee;
+    float reach = 0;       // at the seam, as a share of the leg's length
+    float reach_left = 0;  // 1 at the seam .. 0: what of that still counts
 
     // Where the ball would be shown next if nothing changed, and how far that is from here; what
     // went by joints was kept inside their ranges.
@@ -95,6 +104,8 @@ class Feet {
   void lead(Foot& foot, Quat clip_turn, Vec3 hips_turn) const;
   float floor_of_shown(const Foot& foot) const;
   float too_high(Vec3 hip, Vec3 ankle, float straightest) const;
+  float rise_for(Side side, const WorldPose& world) const;
+  float knees_ask(const WorldPose& world, const WorldPose& clip);
 
   Skeleton skeleton_;
   PlaybackSettings settings_;

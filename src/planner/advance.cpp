@@ -140,9 +140,9 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
     const MotionTables& tables = *side(event.victim).tables;
-    answer.response =
-        choose_response(tables.library(), tables.body(), answer.outcome,
-                        event.blow.struck.root().yaw, victim.flight.table->action->stance);
+    answer.response = choose_response(tables.library(), tables.body(), answer.outcome,
+                                      event.blow.struck.faces(tables.library()),
+                                      victim.flight.table->action->stance);
   }
   if (events_ != nullptr) events_->push_back(event);
   if (setup_->settings.prune.unanswered_hit && unanswered(node, event, *met.window.flight, move)) {

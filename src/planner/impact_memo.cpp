@@ -190,7 +190,7 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   const bool touch = answer.impulse < kTouchImpulse;
   if (!touch) answer.outcome = impulse_step(victim.body(), input, own);
   answer.response = choose_response(victim.library(), victim.body(), answer.outcome,
-                                    struck.root().yaw, action.action->stance);
+                                    struck.faces(victim.library()), action.action->stance);
   if (answer.outcome.response == ResponseKind::absorb) {
     answer.share = share_foreseen(answer.outcome, victim.at(answer.response).way);
   } else if (answer.outcome.response == ResponseKind::recovery_steps) {

@@ -32,6 +32,10 @@ struct BodyMoment {
 
   const Pose& pose() const { return table->pose_at(age); }
   Placement root() const { return table->root_at(age); }
+  // Which way it would answer a blow, rad (turned_away).
+  float faces(const MotionLibrary& library) const {
+    return root().yaw + turned_away(library, *table->action, table->clip_age(age));
+  }
   Capsule part(Part which) const { return table->capsules_at(age)[index(which)]; }
 };
 

@@ -28,8 +28,10 @@ void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick ti
 
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
                  const ImpactInput& input, const ImpactOutcome& outcome) {
-  const float facing = root_at(library, cut, now, body.scale).yaw;
-  const Stance stance = library.action(cut.action).stance;
+  const Action& what = library.action(cut.action);
+  const Stance stance = what.stance;
+  const float facing =
+      root_at(library, cut, now, body.scale).yaw + turned_away(library, what, now - cut.start);
   const ActionId response = choose_response(library, body, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);

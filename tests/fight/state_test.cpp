@@ -4,6 +4,7 @@
 
 #include "fight/synthetic_fixture.h"
 #include "fight/timeline.h"
+#include "motion/strike_fit.h"
 
 namespace ringcraft {
 namespace {
@@ -102,6 +103,27 @@ TEST_F(StateTest, ResponseStartsWhereTheCutActionStands) {
   EXPECT_TRUE(response.forced);
   EXPECT_EQ(response.start, 30);
   EXPECT_EQ(response.aim, 0);
+}
+
+// A root does not turn with a spin: what answers a blow then begins the way the body has turned,
+// but for a quarter that it turns back.
+TEST_F(StateTest, AnAnswerToABlowInASpinBeginsTheWayTheBodyHasTurned) {
+  const ActionId cross = library().find("cross");
+  const float guard = heading_of(standing_guard(library())->rotation[0]);
+  for (const float turned : {-160.0f, -100.0f, -40.0f, 0.0f, 60.0f, 95.0f, 130.0f, 170.0f}) {
+    std::vector<Action> actions = library().actions();
+    for (Pose& pose : actions[cross.at()].clip.frames) {
+      pose.rotation[0] = yaw_rotation(radians(turned) + guard);
+    }
+    const MotionLibrary spun = library().with(std::move(actions));
+    const Launch cut = launch("cross", 0, {0, 0, 1});
+    const Launch answer = forced_response(spun, cut, spun.find("steps_back_1"), 30, 1);
+    const float root = root_at(spun, cut, 30, 1).yaw;
+    const float beyond = std::max(0.0f, std::abs(turned) - 90);
+    EXPECT_NEAR(wrapped_angle(answer.placement.yaw - root), radians(turned < 0 ? -beyond : beyond),
+                1e-3f)
+        << turned;
+  }
 }
 
 // What follows must start where the body is, not where the whole clip would have left it.
