@@ -210,11 +210,12 @@ void Feet::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
       {least_seconds, glm::length(offset) / kStepSpeed,
        after_simulation_ ? std::min(kFastFoot * glm::length(velocity), kLongestStep) : 0.0f});
   foot.offset = {offset, velocity, foot.rise_seconds};
-  foot.rise = std::max(
-      {0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2,
-       after_simulation_ || (mode == Mode::step && glm::length(on_ground(velocity)) > kLandingSpeed)
-           ? clearing_rise(foot.offset, foot.rise_seconds)
-           : 0.0f});
+  // A step that sets out faster than a foot may land would skim the floor.
+  const bool skims = mode == Mode::step && glm::length(on_ground(velocity)) > kLandingSpeed;
+  const float clearing =
+      after_simulation_ || skims ? clearing_rise(foot.offset, foot.rise_seconds) : 0.0f;
+  foot.rise =
+      std::max({0.0f, settings_.restep_lift * std::min(far, 1.0f) - offset.y / 2, clearing});
   foot.rise_age = 0;
   if (!after_simulation_) return;
   // The arc's sin^2 takes 2 (pi / T)^2 of its height in acceleration.

@@ -363,6 +363,42 @@ TEST(Playback, AFootInTheAirLandsWhereTheNewClipStandsOnIt) {
   EXPECT_LT(deepest_sole(shown), 0.002f);
 }
 
+// A foot that is nearly down and goes too fast to stand takes a step that clears the floor.
+TEST(Playback, AFootThatComesDownFastDoesNotSkimTheFloor) {
+  const Clip comes_down = test::clip_of(
+      kSkeleton, 60,
+      [](float t) {
+        test::Stance stance;
+        stance.left_ball += Vec3{0, 0.5f, -0.7f} * (1 - t);
+        return stance;
+      },
+      [](float) {
+        return FootContacts{false, true};
+      },
+      test::in_place);
+  const Clip stands = test::clip_of(
+      kSkeleton, 60,
+      [](float) {
+        test::Stance stance;
+        stance.left_ball.z += 0.15f;
+        return stance;
+      },
+      test::both, test::in_place);
+  Playback playback(kSkeleton);
+  Shown shown;
+  play(playback, comes_down, {}, 56, shown);
+  play(playback, stands, {}, 60, shown);
+  const auto left = [&](std::size_t t) {
+    const Vec3 ahead = shown.world.back().position[index(Joint::left_toes)];
+    return std::abs(ahead.z - shown.at(t, Joint::left_toes).z);
+  };
+  for (std::size_t t = 56; left(t) > 0.05f; ++t) {
+    EXPECT_GT(shown.at(t, Joint::left_toes).y, kSkeleton.toe_height() + 0.015f) << t;
+  }
+  EXPECT_TRUE(shown.held.back().left);
+  EXPECT_EQ(skate_ratio(shown), 0);
+}
+
 TEST(Playback, HipsSinkRatherThanAFootIsDragged) {
   // The clip stands up so tall that a foot held a little to the side is out of reach.
   const Clip tall = test::clip_of(
