@@ -23,6 +23,10 @@ target_compile_features(ringcraft_flags INTERFACE cxx_std_20)
 target_compile_options(ringcraft_flags INTERFACE
   -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# Eight floats at once in place of four, each as it was: no fused multiply-add comes with it.
+if(RINGCRAFT_AVX2)
+  target_compile_options(ringcraft_flags INTERFACE -mavx2)
+endif()
 target_compile_definitions(ringcraft_flags INTERFACE
   RINGCRAFT_SOURCE_ASSETS="${CMAKE_SOURCE_DIR}/assets" RINGCRAFT_VERSION="${PROJECT_VERSION}")
 if(RINGCRAFT_SANITIZE)
