@@ -388,13 +388,13 @@ float Feet::too_high(Vec3 hip, Vec3 ankle, float straightest) const {
   return line.y - std::sqrt(reach * reach - across * across);
 }
 
-// As a critically damped spring lets it, once what is wanted of it starts or stops in a jerk that
-// is not the clip's.
+// As a critically damped spring lets it, once what is wanted of it changes its speed faster than it
+// may, beyond what the clip's does.
 void Feet::Knee::follow(float wants, float clip_wants) {
   const float own = std::abs(clip_wants - 2 * clip + clip_before);
   const float most = kKneeAcceleration * kTickSeconds * kTickSeconds + own;
-  const float jerk = wants - 2 * wanted + wanted_before;
-  const float started = velocity - (jerk - std::clamp(jerk, -most, most)) / kTickSeconds;
+  const float change = wants - 2 * wanted + wanted_before;
+  const float started = velocity - (change - std::clamp(change, -most, most)) / kTickSeconds;
   const float slope = started + eased * kKneeRate;
   const float fade = std::exp(-kKneeRate * kTickSeconds);
   eased = (eased + slope * kTickSeconds) * fade;
