@@ -109,12 +109,16 @@ float turned_away(const MotionLibrary& library, const Action& action, Tick age) 
   return off - std::clamp(off, -kBroughtBack, kBroughtBack);
 }
 
+Placement answers_from(const MotionLibrary& library, const Launch& cut, Tick tick, float scale) {
+  Placement placement = root_at(library, cut, tick, scale);
+  placement.yaw = wrapped_angle(placement.yaw +
+                                turned_away(library, library.action(cut.action), tick - cut.start));
+  return placement;
+}
+
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
                        Tick start, float scale) {
-  Placement placement = root_at(library, cut, start, scale);
-  placement.yaw = wrapped_angle(
-      placement.yaw + turned_away(library, library.action(cut.action), start - cut.start));
-  Launch launch = launched(library, response, start, placement);
+  Launch launch = launched(library, response, start, answers_from(library, cut, start, scale));
   launch.forced = true;
   if (library.action(response).ends_lying != Lying::none) launch.end += kLyingTicks;
   return launch;

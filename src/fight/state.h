@@ -86,8 +86,11 @@ Tick free_after_fall(const Action& action, const Launch& launch, Tick now);
 // its root faces, as in a spin, beyond what an answer brings back: that begins turned by so much.
 float turned_away(const MotionLibrary& library, const Action& action, Tick age);
 
-// The launch of a response at tick `start`, from where the cut action stands and the way its body
-// has turned. A knockdown lasts until the get-up begins.
+// Where the answer to a blow at `tick` begins: at the root of the struck body, the way it has
+// turned.
+Placement answers_from(const MotionLibrary& library, const Launch& cut, Tick tick, float scale);
+
+// The launch of a response at tick `start`, begun there. A knockdown lasts until the get-up begins.
 Launch forced_response(const MotionLibrary& library, const Launch& cut, ActionId response,
                        Tick start, float scale);
 

@@ -185,18 +185,37 @@ double Duel::Aspect::location(Tick length_ticks, double rate) const {
 double Duel::Aspect::attack(const NextAction& next, const Frame& start, const Frame& aim) const {
   if (opponent_down) return 0;
   double points = 0;
+  float farthest = 0;
   for (std::size_t i = 0; i < next.strikes.size(); ++i) {
     const StrikeAim& strike = next.strikes[i];
     const Tick tick = now + strike.tick;
     const Vec3 target = aim.to_inner(start.to_inner(opponent_at(tick)));
     const float reach = reaching(strike, target);
     if (reach <= 0) continue;
+    farthest = std::max(farthest, reach);
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
     points +=
         sure * static_cast<double>(reach) *
         hit_points(own->weights, strike.kind, own->clean_damage[next.first_strike + i], false);
   }
-  return points;
+  return points + reach_bonus(own->weights) * static_cast<double>(farthest);
+}
+
+float Duel::reach_of(const Node& node, int who, const NextAction& next) const {
+  const InFlight& self = node.side[static_cast<std::size_t>(who)].flight;
+  const Duelist& other = node.side[static_cast<std::size_t>(1 - who)];
+  if (other.balance == 2 && !setup_->settings.hits_on_downed) return 0;
+  Placement placement = (Frame(self.root_at(node.now)) * next.alignment).placement();
+  placement.yaw += aim_at(*next.table->action, placement, other.flight.root_at(node.now).position(),
+                          side(who).tables->body().scale, kMostAttackAim);
+  const Frame aimed(placement);
+  float reach = 0;
+  for (const StrikeAim& strike : next.strikes) {
+    const Tick tick = node.now + next.lead + strike.tick;
+    reach =
+        std::max(reach, reaching(strike, aimed.to_inner(other.flight.root_at(tick).position())));
+  }
+  return reach;
 }
 
 Duel::Aspect Duel::aspect_of(const Node& node, int who) const {

@@ -56,6 +56,7 @@ Duel::Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(hori
       range.least = std::min(range.least, points / 1000.0);
       range.most = std::max(range.most, points / 1000.0);
     }
+    range.most += reach_bonus(own.weights);
     range.least -= own.weights.control * own.weights.duration * seconds(own.tables->longest_lead());
   }
 }
@@ -226,12 +227,17 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
   const SideSetup& own = side(move.side);
   const std::vector<ActionId>& path = move.next->path;
   const ActionTable& from = *node.side[move.side].flight.table;
+  const double bonus = reach_bonus(own.weights);
+  const double reach = bonus > 0 && !move.next->strikes.empty()
+                           ? static_cast<double>(reach_of(node, move.side, *move.next))
+                           : 0.0;
   launch_aimed(node, move.side, path.empty() ? *move.next : *from.find_next(path.front()));
   auto& queue = node.side[move.side].queue;
   for (std::size_t i = 0; i < path.size(); ++i) {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
   credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control, node.now);
+  credit(node, move.side, bonus * reach, Term::control, node.now);
   credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
          Term::control, node.now);
 }

@@ -203,6 +203,9 @@ class Duel {
   void add_location(Node& node, Tick from, Tick to) const;
   std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to);
   bool may_strike(const InFlight& flight, Tick after) const;
+  // The largest share, 0..1, to which a strike of `next`, chosen now, reaches the opponent where
+  // that goes by itself.
+  float reach_of(const Node& node, int who, const NextAction& next) const;
 
   const DuelSetup* setup_;
   Tick horizon_;

@@ -43,7 +43,7 @@ double least_location_rate(const Weights& weights) {
 double launch_points(const Weights& weights, const Style& style, const Action& action, double use) {
   const double cost = weights.rarity * use + weights.duration * seconds(action.length());
   double points = -weights.control * cost;
-  if (action.attacks()) points += weights.attack_bonus;
+  if (action.attacks()) points += std::min(0.0, weights.attack_bonus);
   const auto liked = style.liked.find(action.name);
   if (liked != style.liked.end()) points += liked->second;
   return points;

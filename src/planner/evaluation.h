@@ -57,8 +57,15 @@ inline double location_rate(const Weights& weights, double distance, double cosi
 double least_location_rate(const Weights& weights);
 
 // F_control of a launch, points (mostly a cost): `use` is phi, the action's share of recent
-// launches.
+// launches. Without reach_bonus.
 double launch_points(const Weights& weights, const Style& style, const Action& action, double use);
+
+// w_i where it is a bonus: earned by an attack that reaches the opponent where it goes by itself,
+// so that who likes to attack comes near and does not fight the air. Where it is a price, every
+// attack pays it.
+inline double reach_bonus(const Weights& weights) {
+  return std::max(0.0, weights.attack_bonus);
+}
 
 // F_fight of a landed blow, points; `damage` in thousandths.
 double hit_points(const Weights& weights, StrikeKind kind, std::int32_t damage, bool knockdown);

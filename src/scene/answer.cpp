@@ -28,10 +28,8 @@ void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick ti
 
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
                  const ImpactInput& input, const ImpactOutcome& outcome) {
-  const Action& what = library.action(cut.action);
-  const Stance stance = what.stance;
-  const float facing =
-      root_at(library, cut, now, body.scale).yaw + turned_away(library, what, now - cut.start);
+  const Stance stance = library.action(cut.action).stance;
+  const float facing = answers_from(library, cut, now, body.scale).yaw;
   const ActionId response = choose_response(library, body, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);

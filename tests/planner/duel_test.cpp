@@ -176,6 +176,7 @@ TEST_F(DuelTest, EveryValueLiesInItsRange) {
     style.candidates = 4;
     style.leaf = seed % 2 == 0 ? LeafValue::paper : LeafValue::weighted;
     style.ropes_weight = random.uniform(0, 2);
+    style.attack_bonus = random.uniform(-2, 5);
     set_style(style);
     for (SideSetup& side : setup_.side) {
       for (std::int32_t& points : side.launch) points = random.below(4000) - 3000;
@@ -489,6 +490,42 @@ TEST_F(DuelTest, WhatComesLaterCountsForLess) {
   EXPECT_LT(both, event);
   EXPECT_LT(late_both, node.gained);
   EXPECT_GT(late_both - node.gained, both - event);
+}
+
+// Who likes to attack is to come near: a blow at the air earns nothing.
+TEST_F(DuelTest, ABonusForAttackingIsEarnedWithinReach) {
+  Style style;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;
+  style.attack_bonus = 7;
+  set_style(style);
+  const auto earned = [&](float distance, const char* name) {
+    const DuelNode root = Duel::root(setup_, facing(distance));
+    return Duel(setup_, 1).apply(root, choice(root, 0, name)).node.gained;
+  };
+  EXPECT_EQ(earned(0.85f, "cross"), 7000);
+  EXPECT_EQ(earned(0.85f, "idle"), 0);
+  EXPECT_EQ(earned(2.5f, "cross"), 0);
+  // In between some of it: how well the blow reaches.
+  bool some = false;
+  for (float distance = 0.85f; distance < 2.0f; distance += 0.02f) {
+    const std::int32_t points = earned(distance, "cross");
+    EXPECT_LE(earned(distance + 0.02f, "cross"), points);
+    some = some || (points > 0 && points < 7000);
+  }
+  EXPECT_TRUE(some);
+}
+
+// So the candidates, too, are those that come near or reach.
+TEST_F(DuelTest, WhoLikesToAttackDoesNotFightTheAir) {
+  Style style;
+  style.horizon_s = 1;
+  style.temperature = 0;
+  style.attack_bonus = 50;
+  Planner planner(library(), contenders(2, style), {}, 1);
+  EXPECT_FALSE(
+      library().action(planner.plan(facing(2.5f), FighterId(0), 0).launch.action).attacks());
+  EXPECT_TRUE(
+      library().action(planner.plan(facing(1.0f), FighterId(0), 0).launch.action).attacks());
 }
 
 TEST_F(DuelTest, StrikeAtNobodyIsNotEvaded) {

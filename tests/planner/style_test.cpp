@@ -103,6 +103,20 @@ TEST(EvaluationTest, ControlFavoursShortAndSeldomUsedActions) {
   EXPECT_DOUBLE_EQ(launch_points(weights, style, lengthy, 0.25), -0.5 - 1);
 }
 
+TEST(EvaluationTest, EveryAttackPaysAPriceButABonusMustBeEarned) {
+  const Style style;
+  Weights weights = weights_at(style, 0);
+  Action blow;
+  blow.strikes.emplace_back();
+  const double neutral = launch_points(weights, style, blow, 0);
+  weights.attack_bonus = -2;
+  EXPECT_EQ(launch_points(weights, style, blow, 0), neutral - 2);
+  EXPECT_EQ(reach_bonus(weights), 0);
+  weights.attack_bonus = 5;
+  EXPECT_EQ(launch_points(weights, style, blow, 0), neutral);
+  EXPECT_EQ(reach_bonus(weights), 5);
+}
+
 TEST(EvaluationTest, LeafFormsWeighTheOpponentDifferently) {
   Style style;
   const LeafFactors weighted = leaf_factors(weights_at(style, 0));
