@@ -105,14 +105,14 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   const int winner = std::min(event.attacker, 1);
   const SideSetup& attacker = side(winner);
   credit(node, winner, hit_points(attacker.weights, event.blow.kind, damage, knocks_down),
-         Term::hit, event.tick);
+         Term::hit);
   const Duelist& victim = node.side[static_cast<std::size_t>(event.victim)];
   if (event.attacker < 2 && event.kind == DuelEvent::Kind::block &&
       victim.flight.table->action->defense) {
     const std::int32_t full =
         attacker.clean_damage[event.blow.attack.table->first_strike + event.strike];
     credit(node, event.victim, defense_points(side(event.victim).weights, full - damage),
-           Term::defense, event.tick);
+           Term::defense);
   }
 }
 
@@ -215,7 +215,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
           kBodyRadius)
         continue;
       const std::int32_t full = side(i).clean_damage[flight.table->first_strike + s];
-      credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense, over);
+      credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense);
       spend(attacker.flight.launch, s);
       if (events_ != nullptr) {
         DuelEvent event;
@@ -252,7 +252,7 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
                    static_cast<double>(std::max(std::abs(own.x), std::abs(own.z)));
       }
       credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes),
-             Term::location, tick);
+             Term::location);
     }
   }
 }

@@ -160,16 +160,8 @@ void Duel::note_term(int who, Term term, double points, std::int32_t credited) c
   sum.credited += credited;
 }
 
-double Duel::discount_at(Tick at) const {
-  const std::vector<double>& discount = setup_->discount;
-  if (discount.empty()) return 1;
-  return discount[static_cast<std::size_t>(
-      std::clamp(at - setup_->now, 0, static_cast<Tick>(discount.size()) - 1))];
-}
-
-void Duel::credit(Node& node, int who, double points, Term term, Tick at) const {
+void Duel::credit(Node& node, int who, double points, Term term) const {
   const auto i = static_cast<std::size_t>(who);
-  points *= discount_at(at);
   const bool event = term == Term::hit || term == Term::defense;
   const std::int32_t credited =
       thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
@@ -236,10 +228,10 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
   for (std::size_t i = 0; i < path.size(); ++i) {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
-  credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control, node.now);
-  credit(node, move.side, bonus * reach, Term::control, node.now);
+  credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control);
+  credit(node, move.side, bonus * reach, Term::control);
   credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
-         Term::control, node.now);
+         Term::control);
 }
 
 Child<DuelNode> Duel::apply(const Node& node, const Move& move) {

@@ -77,8 +77,6 @@ struct SideSetup {
 struct DuelSetup {
   std::array<SideSetup, 2> side;
   LeafFactors factors;
-  Tick now = 0;                    // of the decision
-  std::vector<double> discount;    // what a point so many ticks later counts for; empty: all of it
   const Habits* habits = nullptr;  // of side 1, where side 0 learns
   double learning = 0;             // Style::learning of side 0
   PlanSettings settings;
@@ -183,8 +181,7 @@ class Duel {
   struct Aspect;  // what candidates are weighed against; candidates.cpp
 
   const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
-  void credit(Node& node, int side, double points, Term term, Tick at) const;
-  double discount_at(Tick at) const;
+  void credit(Node& node, int side, double points, Term term) const;
   void note_term(int side, Term term, double points, std::int32_t credited) const;
   void launch_forced(Node& node, int side, ActionId action) const;
   void launch_aimed(Node& node, int side, const NextAction& next) const;

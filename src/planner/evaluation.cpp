@@ -27,7 +27,6 @@ Weights weights_at(const Style& style, double quiet) {
   w.duration = style.duration_weight;
   w.attack_bonus = style.attack_bonus + 10 * bored;
   w.leaf = style.leaf;
-  if (style.leaf == LeafValue::weighted) w.discount = style.discount;
   for (std::size_t i = 0; i < kStrikeKinds; ++i) {
     const auto found = style.strikes.find(std::string(name_of(static_cast<StrikeKind>(i))));
     if (found != style.strikes.end()) w.strikes[i] = found->second;
@@ -65,15 +64,6 @@ LeafFactors leaf_factors(const Weights& planner) {
     factors.rest[1] = 0;
   }
   return factors;
-}
-
-std::vector<double> discounts(double discount, Tick most) {
-  if (discount >= 1) return {};
-  std::vector<double> worth;
-  const double tick = std::pow(discount, static_cast<double>(kTickSeconds));
-  double left = 1;
-  for (Tick t = 0; t <= most; ++t, left *= tick) worth.push_back(left);
-  return worth;
 }
 
 }  // namespace ringcraft

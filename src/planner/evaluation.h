@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "motion/action.h"
 #include "physics/body.h"
@@ -29,7 +28,6 @@ struct Weights {
   double caution = 1.5;                               // kappa_f
   double control = 1, rarity = 4, duration = 0.5, attack_bonus = 0;
   LeafValue leaf = LeafValue::weighted;
-  double discount = 1;  // what a point a second later counts for
   std::array<double, kStrikeKinds> strikes{1, 1, 1, 1, 1, 1, 1, 1, 1};  // on hits, by kind
 };
 
@@ -80,9 +78,5 @@ struct LeafFactors {
   double rest[2] = {1, -1};    // location and control
 };
 LeafFactors leaf_factors(const Weights& planner);
-
-// What a point counts for after 0, 1, ... `most` ticks where one a second later counts for
-// `discount` (0..1]; empty where that is all of it.
-std::vector<double> discounts(double discount, Tick most);
 
 }  // namespace ringcraft

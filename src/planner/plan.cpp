@@ -212,8 +212,6 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   setup.learning = setup.side[0].style->learning;
   if (setup.learning > 0) setup.habits = &habits[opponent.at()];
   setup.factors = leaf_factors(setup.side[0].weights);
-  setup.now = state.now;
-  setup.discount = discounts(setup.side[0].weights.discount, kLongestHorizon);
   setup.settings = settings;
   setup.memo = memo.get();
   setup.cost = cost;

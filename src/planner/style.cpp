@@ -21,7 +21,6 @@ Result<Style> read_style(const std::filesystem::path& path) {
   read("ropes_weight", style.ropes_weight);
   read("defense_share", style.defense_share);
   read("caution", style.caution);
-  read("discount", style.discount);
   read("attack_bonus", style.attack_bonus);
   read("knockdown_bonus", style.knockdown_bonus);
   read("rarity_weight", style.rarity_weight);

@@ -25,7 +25,6 @@ struct Style {
   double ropes_weight = 1.0;     // points/s
   double defense_share = 0.3;    // w_d: points per point of damage prevented
   double caution = 1.5;          // k_f: weight of what the opponent wins
-  double discount = 0.8;         // what a point a second later counts for, (0, 1]
   double attack_bonus = 0.0;     // w_i, points per attack (reach_bonus)
   double knockdown_bonus = 6.0;  // points
   double rarity_weight = 4.0;    // points per share of recent use

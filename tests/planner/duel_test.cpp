@@ -13,29 +13,7 @@
 namespace ringcraft {
 namespace {
 
-class DuelTest : public DuelFixture {
- protected:
-  struct Evaded {
-    DuelNode node;
-    std::vector<DuelEvent> events;
-  };
-  // A cross that is pulled away from; of the place, only the distance counts, by `location`.
-  Evaded cross_pulled_away_from(double location) {
-    Style style;
-    style.location_weight = location;
-    style.facing_weight = style.ropes_weight = 0;
-    set_style(style);
-    const FightState state = facing(1.0f);
-    Duel game(setup_, 200);
-    Evaded evaded;
-    game.record_into(&evaded.events);
-    DuelNode& node = evaded.node = Duel::root(setup_, state);
-    node = game.apply(node, choice(node, 0, "cross")).node;
-    node = game.apply(node, choice(node, 1, "pull_away")).node;
-    while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
-    return evaded;
-  }
-};
+class DuelTest : public DuelFixture {};
 
 BodyCapsules in_world(const InFlight& flight, Tick tick) {
   const Frame frame = flight.frame_at(tick);
@@ -181,7 +159,6 @@ TEST_F(DuelTest, EveryValueLiesInItsRange) {
     for (SideSetup& side : setup_.side) {
       for (std::int32_t& points : side.launch) points = random.below(4000) - 3000;
     }
-    setup_.discount = discounts(seed % 3 == 0 ? 0.5 : 1, 200);
     setup_.settings.ring_half_m = 1;
     const Tick horizon = 20 + random.below(60);
     Duel game(setup_, horizon);
@@ -470,26 +447,21 @@ TEST_F(DuelTest, LocationAddsUpHoweverTheRouteIsCut) {
 }
 
 TEST_F(DuelTest, EvadedStrikeIsCreditedToTheDefender) {
-  const auto [node, events] = cross_pulled_away_from(0);
+  Style style;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;
+  set_style(style);
+  const FightState state = facing(1.0f);
+  Duel game(setup_, 200);
+  std::vector<DuelEvent> events;
+  game.record_into(&events);
+  DuelNode node = Duel::root(setup_, state);
+  node = game.apply(node, choice(node, 0, "cross")).node;
+  node = game.apply(node, choice(node, 1, "pull_away")).node;
+  while (node.now < 62) node = game.apply(node, choice(node, 1, "idle")).node;
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, DuelEvent::Kind::evaded);
   // kappa_f 1.5 times w_d 0.3 of the clean damage of 5 points, against the planner.
   EXPECT_EQ(node.gained, thousandths(-1.5 * 0.3 * 5));
-}
-
-TEST_F(DuelTest, WhatComesLaterCountsForLess) {
-  const std::int32_t event = cross_pulled_away_from(0).node.gained,
-                     both = cross_pulled_away_from(1).node.gained;
-  setup_.discount = discounts(0.5, 200);
-  const auto [node, events] = cross_pulled_away_from(0);
-  const std::int32_t late_both = cross_pulled_away_from(1).node.gained;
-  ASSERT_EQ(events.size(), 1u);
-  EXPECT_GT(events[0].tick, 30);
-  EXPECT_NEAR(node.gained, event * std::pow(0.5, seconds(events[0].tick)), 1);
-  // Location only costs here: a cost that comes later is a smaller one.
-  EXPECT_LT(both, event);
-  EXPECT_LT(late_both, node.gained);
-  EXPECT_GT(late_both - node.gained, both - event);
 }
 
 // Who likes to attack is to come near: a blow at the air earns nothing.

@@ -128,21 +128,6 @@ TEST(EvaluationTest, LeafFormsWeighTheOpponentDifferently) {
   EXPECT_EQ(paper.rest[1], -1);
 }
 
-TEST(EvaluationTest, APointALaterSecondCountsForLess) {
-  const std::vector<double> worth = discounts(0.7, 240);
-  ASSERT_EQ(worth.size(), 241u);
-  EXPECT_EQ(worth[0], 1);
-  EXPECT_NEAR(worth[120], 0.7, 1e-6);
-  EXPECT_NEAR(worth[240], 0.49, 1e-6);
-  EXPECT_TRUE(discounts(1, 240).empty());
-
-  Style style;
-  EXPECT_EQ(weights_at(style, 0).discount, style.discount);
-  EXPECT_LT(style.discount, 1);
-  style.leaf = LeafValue::paper;  // the paper's sums have none
-  EXPECT_EQ(weights_at(style, 0).discount, 1);
-}
-
 TEST(EvaluationTest, HitsCountByDamageKindAndKnockdown) {
   Style style;
   style.strikes["hook"] = 2;
