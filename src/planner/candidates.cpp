@@ -185,20 +185,20 @@ double Duel::Aspect::location(Tick length_ticks, double rate) const {
 double Duel::Aspect::attack(const NextAction& next, const Frame& start, const Frame& aim) const {
   if (opponent_down) return 0;
   double points = 0;
-  float farthest = 0;
+  float best_reach = 0;
   for (std::size_t i = 0; i < next.strikes.size(); ++i) {
     const StrikeAim& strike = next.strikes[i];
     const Tick tick = now + strike.tick;
     const Vec3 target = aim.to_inner(start.to_inner(opponent_at(tick)));
     const float reach = reaching(strike, target);
     if (reach <= 0) continue;
-    farthest = std::max(farthest, reach);
+    best_reach = std::max(best_reach, reach);
     const double sure = opponent->launch.end > tick ? 1.0 : kAnswerable;
     points +=
         sure * static_cast<double>(reach) *
         hit_points(own->weights, strike.kind, own->clean_damage[next.first_strike + i], false);
   }
-  return points + reach_bonus(own->weights) * static_cast<double>(farthest);
+  return points + reach_bonus(own->weights) * static_cast<double>(best_reach);
 }
 
 float Duel::reach_of(const Node& node, int who, const NextAction& next) const {

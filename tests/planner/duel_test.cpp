@@ -487,7 +487,23 @@ TEST_F(DuelTest, ABonusForAttackingIsEarnedWithinReach) {
   EXPECT_TRUE(some);
 }
 
-// So the candidates, too, are those that come near or reach.
+TEST_F(DuelTest, AnAttackThatEarnsItsBonusIsAmongTheFirstCandidates) {
+  Style style;
+  style.candidates = 100;
+  style.location_weight = style.facing_weight = style.ropes_weight = 0;
+  style.fight_weight = 0;  // only the bonus has a worth
+  style.attack_bonus = 7;
+  set_style(style);
+  const auto first = [&](float distance) {
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, facing(distance)), moves);
+    return library().action(moves.front().action).attacks();
+  };
+  EXPECT_TRUE(first(0.85f));
+  EXPECT_FALSE(first(2.5f));
+}
+
 TEST_F(DuelTest, WhoLikesToAttackDoesNotFightTheAir) {
   Style style;
   style.horizon_s = 1;
