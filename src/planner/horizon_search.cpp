@@ -16,22 +16,17 @@ Searched weighed_by_first_step(const DuelSetup& setup, const DuelNode& root,
   Searched result;
   result.horizon = kHorizonStep;
   Duel game(setup, root.now + kHorizonStep);
-  std::vector<DuelMove> moves;
-  game.moves(root, moves);
-  for (const DuelMove& move : moves) {
-    const Child<DuelNode> child = game.apply(root, move);
-    result.roots.push_back({move,
-                            child,
-                            game.value(child.node),
-                            preference(game.key(move)),
-                            true,
-                            {},
-                            {1, 1, 0, 0, 0},
-                            game});
+  result.roots = root_moves(game, root);
+  result.root_counts = game.counts();
+  for (RootMove<Duel>& one : result.roots) {
+    one.value = game.value(one.child.node);
+    one.preference = preference(game.key(one.move));
+    one.exact = true;
+    one.counts.nodes = one.counts.leaves = 1;
+    result.counts += one.counts;
   }
   std::stable_sort(result.roots.begin(), result.roots.end(),
-                   [](const auto& a, const auto& b) { return a.sum() > b.sum(); });
-  result.counts.nodes = result.counts.leaves = moves.size();
+                   [](const auto& a, const auto& b) { return a.better_than(b); });
   return result;
 }
 
@@ -57,7 +52,7 @@ Searched search_ahead(const DuelSetup& setup, const FightState& state, const Sof
   RootSearch<Duel> search(search_settings, setup.settings.threads, setup.settings.alpha_beta, pool);
   const std::uint64_t limit = setup.settings.node_limit;
   Searched best;
-  Tick horizon = std::min(wanted, limits.any() ? kFirstLiveHorizon : kFirstHorizon);
+  Tick horizon = std::min(wanted, limits.seconds > 0 ? kFirstLiveHorizon : kFirstHorizon);
   double growth = kFirstGrowth;
   std::uint64_t nodes_before = 0;
   while (true) {

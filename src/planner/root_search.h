@@ -8,8 +8,8 @@
 // preferred to the first have exact values, the others upper bounds.
 
 #include <atomic>
-#include <thread>
 
+#include "base/tasks.h"
 #include "planner/search.h"
 
 namespace ringcraft {
@@ -26,20 +26,33 @@ struct RootMove {
   G game;  // the task's own: holds what it counted
 
   std::int32_t sum() const { return value + preference; }
+  // The largest sum first; of equal sums the exact one, then the smallest key.
+  bool better_than(const RootMove& o) const {
+    if (sum() != o.sum()) return sum() > o.sum();
+    return exact != o.exact ? exact : game.key(move) < o.game.key(o.move);
+  }
 };
 
-// Runs task(0) .. task(count - 1) on up to `threads` threads.
-template <class Task>
-void run_tasks(std::size_t count, int threads, const Task& task) {
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) task(i);
-  };
-  std::vector<std::thread> others;
-  const std::size_t most = std::min(count, static_cast<std::size_t>(std::max(1, threads)));
-  for (std::size_t i = 1; i < most; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& thread : others) thread.join();
+// The moves of `root` that no rule strikes off, else the one with the least fault. `game` counts
+// what was struck off; the moves' own games count from 0 on.
+template <Game G>
+std::vector<RootMove<G>> root_moves(G& game, const typename G::Node& root) {
+  const G clean = game;
+  std::vector<typename G::Move> list;
+  game.moves(root, list);
+  std::vector<RootMove<G>> sound, struck;
+  for (const auto& move : list) {
+    RootMove<G> one{move, game.apply(root, move), 0, 0, false, {}, {}, clean};
+    (one.child.fault > 0 ? struck : sound).push_back(std::move(one));
+  }
+  if (sound.empty() && !struck.empty()) {
+    sound.push_back(
+        *std::min_element(struck.begin(), struck.end(), [](const auto& a, const auto& b) {
+          if (a.child.fault != b.child.fault) return a.child.fault < b.child.fault;
+          return a.game.key(a.move) < b.game.key(b.move);
+        }));
+  }
+  return sound;
 }
 
 // The memory of one root move from horizon to horizon.
@@ -63,16 +76,19 @@ class RootSearch {
     for (RootMemory<G>& memory : memory_) pool_.give_back(std::move(memory.search));
   }
 
-  // Searches every move of `root`, where the maximizer acts. The largest sum of value and
-  // `preference` (of a move's key) first; of equal sums the exact one, then the smallest key. Empty
+  // Searches every move of `root`, where the maximizer acts; `preference` of a move's key is added
+  // to its value. The best first. Empty
   // when the node limit (over all moves; 0 is none) was not enough. `root_game` counts what was
   // struck off at the root.
   template <class Preference>
   std::vector<RootMove<G>> run(G& root_game, const Node& root, const Preference& preference,
                                std::uint64_t node_limit) {
-    std::vector<RootMove<G>> moves = children(root_game, root);
+    std::vector<RootMove<G>> moves = root_moves(root_game, root);
     if (moves.empty()) return moves;
-    for (RootMove<G>& one : moves) one.preference = preference(one.game.key(one.move));
+    for (RootMove<G>& one : moves) {
+      one.preference = preference(one.game.key(one.move));
+      memory_of(one.game, one.move);  // all of them now: tasks only look theirs up
+    }
     const auto hoped = [&](const RootMove<G>& one) {  // from the last horizon, where there was one
       const std::int32_t last = memory_of(one.game, one.move).last;
       return last == kWorst ? kWorst : last + one.preference;
@@ -105,10 +121,8 @@ class RootSearch {
     for (RootMemory<G>& memory : memory_) memory.search->next_horizon();
     if (aborted) return {};
     for (const RootMove<G>& move : moves) memory_of(move.game, move.move).last = move.value;
-    std::stable_sort(moves.begin(), moves.end(), [&](const auto& a, const auto& b) {
-      if (a.sum() != b.sum()) return a.sum() > b.sum();
-      return a.exact != b.exact ? a.exact : key(a) < key(b);
-    });
+    std::stable_sort(moves.begin(), moves.end(),
+                     [](const auto& a, const auto& b) { return a.better_than(b); });
     return moves;
   }
 
@@ -116,26 +130,6 @@ class RootSearch {
   std::uint64_t spent() const { return spent_; }
 
  private:
-  std::vector<RootMove<G>> children(G& game, const Node& root) {
-    std::vector<typename G::Move> list;
-    game.moves(root, list);
-    const G clean = game;  // tasks count from here on
-    std::vector<RootMove<G>> sound, struck;
-    for (const auto& move : list) {
-      RootMove<G> one{move, game.apply(root, move), 0, 0, false, {}, {}, clean};
-      (one.child.fault > 0 ? struck : sound).push_back(std::move(one));
-    }
-    if (sound.empty() && !struck.empty()) {
-      sound.push_back(
-          *std::min_element(struck.begin(), struck.end(), [](const auto& a, const auto& b) {
-            if (a.child.fault != b.child.fault) return a.child.fault < b.child.fault;
-            return a.game.key(a.move) < b.game.key(b.move);
-          }));
-    }
-    for (const RootMove<G>& one : sound) memory_of(one.game, one.move);
-    return sound;
-  }
-
   RootMemory<G>& memory_of(const G& game, const typename G::Move& move) {
     const std::uint32_t key = game.key(move);
     for (RootMemory<G>& memory : memory_) {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/tasks.h"
 #include "planner/impact_store.h"
-#include "planner/root_search.h"
 #include "scene/fight_files.h"
 
 namespace ringcraft {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/tasks.h"
 #include "io/events.h"
 #include "physics/response.h"
-#include "planner/root_search.h"
 #include "scene/replay_bytes.h"
 
 namespace ringcraft {

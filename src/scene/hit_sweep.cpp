@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/tasks.h"
 #include "io/events.h"
-#include "planner/root_search.h"
 
 namespace ringcraft {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/quantile.h"
 #include "base/random.h"
+#include "base/tasks.h"
 #include "planner/impact_store.h"
-#include "planner/root_search.h"
 
 namespace ringcraft {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/tasks.h"
 #include "physics/stances.h"
 #include "physics/trial.h"
-#include "planner/root_search.h"
 #include "scene/study_hits_rows.h"
 
 namespace ringcraft {

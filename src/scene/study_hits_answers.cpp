@@ -7,12 +7,12 @@
 
 #include "base/quantile.h"
 #include "base/random.h"
+#include "base/tasks.h"
 #include "motion/quality.h"
 #include "physics/partial.h"
 #include "physics/ragdoll.h"
 #include "physics/response.h"
 #include "physics/stances.h"
-#include "planner/root_search.h"
 #include "scene/answer.h"
 #include "scene/study_hits_rows.h"
 

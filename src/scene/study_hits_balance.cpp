@@ -6,11 +6,11 @@
 
 #include "base/quantile.h"
 #include "base/random.h"
+#include "base/tasks.h"
 #include "physics/balance.h"
 #include "physics/ragdoll.h"
 #include "physics/stances.h"
 #include "physics/trial.h"
-#include "planner/root_search.h"
 #include "scene/study_hits_rows.h"
 
 namespace ringcraft {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/tasks.h"
 #include "motion/strike_fit.h"
-#include "planner/root_search.h"
 #include "scene/placed_strike.h"
 #include "scene/study_hits_rows.h"
 

@@ -6,9 +6,9 @@
 
 #include "base/file.h"
 #include "base/random.h"
+#include "base/tasks.h"
 #include "capture/library_builder.h"
 #include "planner/plan.h"
-#include "planner/root_search.h"
 
 namespace ringcraft {
 namespace {

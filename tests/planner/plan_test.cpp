@@ -212,6 +212,26 @@ TEST_F(PlanTest, NodeLimitShortensTheHorizonButAlwaysAnswers) {
   EXPECT_GT(last, ticks(1.0));
 }
 
+// What no horizon was finished for is weighed by one step, under the same rules.
+TEST_F(PlanTest, AMoveWeighedByItsFirstStepIsNoneThatTheRulesStrikeOff) {
+  PlanSettings tight;
+  tight.node_limit = 1;
+  int struck_off = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Planner planner(library(), contenders(2, quick()), tight, seed);
+    FightState state = random_state(seed);
+    state.fighters[1].launch = launch("front_kick", -70, state.fighters[1].launch.placement);
+    const Plan plan = planner.plan(state, FighterId(0), 0);
+    ASSERT_EQ(plan.record.nodes, plan.record.lines.size());
+    EXPECT_LT(plan.record.pruned_candidates, library().actions().size());
+    for (const StruckOff& one : plan.record.struck_off) {
+      ++struck_off;
+      EXPECT_NE(one.action, library().action(plan.launch.action).name) << seed;
+    }
+  }
+  EXPECT_GT(struck_off, 10);
+}
+
 TEST_F(PlanTest, FallenFighterGetsUp) {
   Planner planner(library(), contenders(2, quick()), {}, 3);
   FightState state = facing(1.5f, 20);
