@@ -168,7 +168,8 @@ struct MotionInFlight {
   Launch launch;
   Tick from = 0;                // of the first pose
   std::vector<Pose> poses;      // world, one a tick
-  std::vector<Tick> clip_ages;  // the clip's, from the launch's first tick to that of the last pose
+  std::vector<Tick> clip_ages;  // the clip's, from the launch's first tick to its last, or that of
+                                // the last pose
 };
 
 class MotionTables {

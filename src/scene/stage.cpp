@@ -20,7 +20,7 @@ constexpr float kLimitTolerance = radians(2);
 constexpr float kSlowsFrom = radians(-12);  // of a joint's range: there it slows, unless its clip
 constexpr float kUpright = .6f;             // of the leg's length: hips lower than that lie
 constexpr float kLegSlowsBy = kTickSeconds / .1f;  // a tick: of a leg that begins to swing
-constexpr Tick kShownAhead = 2 * kTicksPerSecond;  // what a planner is told of a launch in flight
+constexpr Tick kShownAhead = 2 * kTicksPerSecond;  // poses a planner is told of a launch in flight
 constexpr float kSlowsBy = radians(60) * kTickSeconds;  // rad a tick: at which that sets in
 
 // The pose with its joints inside their ranges, on the side on which they were a tick `earlier`,
@@ -293,9 +293,15 @@ MotionInFlight Stage::in_flight(FighterId fighter, Tick tick) const {
   motion.launch = actor.launch;
   motion.from = tick;
   // A blow at its end is answered by a body that goes on.
-  const Tick end = std::clamp(actor.launch.end, tick, tick + kShownAhead) + kImpulseStepTicks + 1;
-  motion.poses = continued(fighter, tick, end - tick + 1);
-  for (Tick t = actor.launch.start; t <= end; ++t) motion.clip_ages.push_back(clip_age(actor, t));
+  constexpr Tick kGoesOn = kImpulseStepTicks + 1;
+  const Launch& launch = actor.launch;
+  const Tick shown = std::clamp(launch.end, tick, tick + kShownAhead) + kGoesOn;
+  motion.poses = continued(fighter, tick, shown - tick + 1);
+  const Tick clip_length = actor.library->action(launch.action).length();
+  const Tick over = std::min(launch.end, launch.start + actor.pace.length(clip_length)) + kGoesOn;
+  for (Tick t = launch.start; t <= std::max(shown, over); ++t) {
+    motion.clip_ages.push_back(clip_age(actor, t));
+  }
   return motion;
 }
 

@@ -57,6 +57,29 @@ TEST_F(StageTest, AMotionInFlightIsWhatWillBeShown) {
   EXPECT_GT(off_clip, 0.05f);  // the clip by itself would not do
 }
 
+// Its poses are told for 2 s, what it strikes to its end.
+TEST_F(StageTest, ALongMotionInFlightKeepsItsLastBlow) {
+  Stage stage(default_library(), {make_body({})});
+  const FighterId self(0);
+  Launch jabs = launch("jab_jab_cross_jab", 0, {});
+  const Action& action = default_library().action(jabs.action);
+  const Pace pace(action, 0.5f);
+  jabs.end = pace.length(action.length());
+  ASSERT_GT(jabs.end, 3 * kTicksPerSecond);
+  stage.begin(self, jabs, {}, pace);
+  show(stage, 0);
+  const MotionTables tables(default_library(), stage.body(self));
+  const ActionTable table = tables.in_flight(stage.in_flight(self, 0));
+  EXPECT_GE(table.length, jabs.end);
+  ASSERT_EQ(table.strikes.size(), action.strikes.size());
+  for (std::size_t i = 0; i < action.strikes.size(); ++i) {
+    const Strike &shown = table.strikes[i].strike, &clip = action.strikes[i];
+    EXPECT_NEAR(shown.active_begin, 2 * clip.active_begin, 1) << i;
+    EXPECT_NEAR(shown.active_end, 2 * clip.active_end, 1) << i;
+  }
+  EXPECT_NEAR(table.root_at(jabs.end).z, tables.at(jabs.action).end.z, 1e-4f);
+}
+
 TEST_F(StageTest, ACheckGuardsWithTheShinThatItLifts) {
   Stage stage(default_library(), {make_body({})});
   const FighterId self(0);
