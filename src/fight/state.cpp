@@ -29,7 +29,11 @@ std::uint64_t FightState::hash() const {
     const Launch& launch = fighter.launch;
     hasher.add(launch.action.value).add(launch.start).add(launch.end).add(launch.placement.x);
     hasher.add(launch.placement.z).add(launch.placement.yaw).add(launch.aim).add(launch.forced);
-    hasher.add(launch.spent).add(fighter.health).add(fighter.balance).add(fighter.opponent.value);
+    hasher.add(launch.spent)
+        .add(launch.share)
+        .add(fighter.health)
+        .add(fighter.balance)
+        .add(fighter.opponent.value);
     hasher.add(fighter.last_at_tie);
   }
   return hasher.digest();

@@ -1,5 +1,5 @@
 #pragma once
-// The fight state: what is searched. A small value with a hash and equality.
+// The fight state: what a decision starts from. A small value with a hash and equality.
 
 #include <cstdint>
 #include <vector>
@@ -24,6 +24,8 @@ struct Launch {
 
   bool operator==(const Launch&) const = default;
 };
+
+inline constexpr Tick kNever = 1'000'000'000;  // end of the action of who is out
 
 struct FighterState {
   Launch launch;

@@ -45,8 +45,7 @@ void Duel::find_windows(const Node& node, Tick end) {
       const StrikeTable& strike = flight.table->strikes[i];
       if (spent(flight.launch, i)) continue;
       if (attacker >= 2 &&
-          (i >= 4 || attacker >= 10 ||
-           ((node.threats_met >> (4 * (attacker - 2) + static_cast<int>(i))) & 1u)))
+          (i >= 4 || (node.threats_met >> (4 * (attacker - 2) + static_cast<int>(i)) & 1u) != 0))
         continue;
       const Tick from = std::max(node.now + 1, flight.launch.start + strike.strike.active_begin);
       const Tick last =
@@ -96,7 +95,8 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
 void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
   const std::int32_t damage = event.answer.damage;
   if (event.attacker >= 2) {
-    node.threats_met |= 1u << (4 * (event.attacker - 2) + static_cast<int>(event.strike));
+    node.threats_met |= std::uint64_t{1}
+                        << (4 * (event.attacker - 2) + static_cast<int>(event.strike));
     if (event.victim != 0) return;
   } else {
     spend(node.side[static_cast<std::size_t>(event.attacker)].flight.launch, event.strike);
@@ -134,9 +134,11 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     const CostSpan span(setup_->cost, CostPart::response, CostPart::contact);
     answer = setup_->memo->answer(event.blow);
   }
-  const bool lies = victim.balance == 2;
   victim.health -= answer.damage;
-  if (victim.health <= 0 && !lies) {  // nobody stands without health
+  const bool out = victim.health <= 0;  // nobody stands without health, nor gets up
+  const bool lies =
+      victim.balance == 2 && !(out && victim.flight.table->action->kind == Kind::get_up);
+  if (out && !lies) {
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
     const MotionTables& tables = *side(event.victim).tables;
@@ -150,6 +152,10 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     fault += kHitFault + answer.damage / 10;
   }
   credit_landed(node, event, !lies && answer.outcome.response == ResponseKind::knockdown);
+  if (out && lies) {
+    victim.knocked_out = true;
+    victim.flight.launch.end = kNever;
+  }
   const bool cut =
       answer.outcome.knockout || interrupts(met.contact.blocked, answer.impulse, answer.outcome);
   if (lies || !cut) return;

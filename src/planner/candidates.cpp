@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "planner/bearings.h"
 #include "planner/duel.h"
@@ -39,6 +40,11 @@ constexpr double kFeintWorth = 3;  // points of the blow that follows, where the
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
 const AimLimit kOtherLimit{std::sin(kMostAim), std::cos(kMostAim)};
+
+// m from the middle of a square ring, along its sides.
+float farther_out(float x, float z) {
+  return std::max(std::abs(x), std::abs(z));
+}
 
 // Its yaw is not asked for.
 Frame frame_of(float x, float z, float sine, float cosine) {
@@ -109,6 +115,7 @@ struct Duel::Aspect {
   float roams = 0;      // m: how far the opponent goes at most from there
   double rate_now = 0;  // F_loc
   double ropes_half = 0;  // m from the middle to the ropes
+  float held_at = 0;      // m from the middle: the ropes let no root go farther, or farther out
   std::vector<Threat> threats;
 
   Vec3 opponent_at(Tick tick) const {
@@ -170,7 +177,7 @@ void Duel::Aspect::add_protection(std::span<const NextAction> next,
 std::array<double, kLanes> Duel::Aspect::rates(const BearingLanes& bearing) const {
   std::array<double, kLanes> rates;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const float out = std::max(std::abs(bearing.x[i]), std::abs(bearing.z[i]));
+    const float out = farther_out(bearing.x[i], bearing.z[i]);
     rates[i] = location_rate(own->weights, bearing.apart[i], bearing.facing[i],
                              ropes_half - static_cast<double>(out));
   }
@@ -233,6 +240,8 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   aspect.opponent_then = other.flight.root_at(aspect.opponent_still).position();
   const double ring_half = setup_->settings.ring_half_m;
   aspect.ropes_half = ring_half > 0 ? ring_half : kNoRopes;
+  aspect.held_at = std::max(static_cast<float>(aspect.ropes_half) - kInsideRopes,
+                            farther_out(aspect.end.x, aspect.end.z));
   const Tick age = node.now - other.flight.launch.start;
   aspect.late =
       other.flight.table->action->attacks() && age < ticks(aspect.own->style->late_sight_s);
@@ -240,8 +249,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Vec3 toward = aspect.end.to_inner(aspect.opponent_now);
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
-  const double to_ropes =
-      aspect.ropes_half - static_cast<double>(std::max(std::abs(at_now.x), std::abs(at_now.z)));
+  const double to_ropes = aspect.ropes_half - static_cast<double>(farther_out(at_now.x, at_now.z));
   aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, to_ropes);
 
   const SideSetup& their = side(1 - who);
@@ -276,8 +284,8 @@ void Duel::score_candidates(const Node& node, int who) {
   scored_.resize(self.flight.table->next.size());
   std::size_t count = 0;
   std::array<std::size_t, kChoices> choices{};  // how many of each
-  float least_turned = -2;
-  Scored spare{};
+  float least_turned = -2, least_out = std::numeric_limits<float>::max();
+  Scored spare{}, held{};
   double feint = 0;  // points that a feint is expected to bring
   if (who == 0 && setup_->habits != nullptr) {
     const InFlight& other = node.side[1].flight;
@@ -319,6 +327,11 @@ void Duel::score_candidates(const Node& node, int who) {
     points += saved_[i];
     const Scored one{thousandths(points), &next, false, bearing.apart[lane]};
     const float facing = bearing.facing[lane];
+    if (const float out = farther_out(bearing.x[lane], bearing.z[lane]); out > aspect.held_at) {
+      ++counts_.candidates;  // nobody walks through the ropes
+      if (out < least_out) least_out = out, held = one;
+      continue;
+    }
     if (setup_->settings.prune.back_turned && facing < kCosineBack) {
       ++counts_.back_turned;
       if (turned_ != nullptr) turned_->push_back(next.to);
@@ -335,6 +348,7 @@ void Duel::score_candidates(const Node& node, int who) {
     if (feigned == nullptr || one.score > feigned->score) feigned = &one;
   }
   if (feigned != nullptr) feigned->score += thousandths(feint);
+  if (count == 0 && spare.next == nullptr) spare = held;
   if (count == 0 && spare.next != nullptr) {
     scored_[count++] = spare;
     ++choices[static_cast<std::size_t>(spare.next->choice)];

@@ -102,7 +102,7 @@ Actor Duel::actor(const Node& node) const {
 
 std::uint64_t Duel::hash(const Node& node) const {
   Mixer mixer;
-  mixer.add(node.now, static_cast<std::int32_t>(node.threats_met));
+  mixer.add(node.now, 0).add(node.threats_met);
   for (const Duelist& one : node.side) {
     const Launch& launch = one.flight.launch;
     mixer.add(launch.action.value, launch.start).add(launch.end, one.pending.value);

@@ -22,7 +22,6 @@ inline constexpr float kMostAttackAim = radians(15);  // a blow's correction at 
 inline constexpr float kMostAim = radians(25);        // of anything else
 inline constexpr float kBackTurned = radians(100);    // farther off the opponent shows the back
 inline constexpr Tick kLocationEvery = 6;             // ticks between samples of F_loc
-inline constexpr Tick kNever = 1'000'000'000;         // end of a knocked-out fighter's action
 
 // One fighter in the tree.
 struct Duelist {
@@ -40,7 +39,7 @@ struct DuelNode {
   Tick now = 0;
   std::array<Duelist, 2> side;
   std::int32_t gained = 0;        // f along the route so far, thousandths
-  std::uint32_t threats_met = 0;  // bit 4 * other + strike: a strike of another fighter has landed
+  std::uint64_t threats_met = 0;  // bit 4 * other + strike: one of another's first four has landed
   Tick checked = 0;               // up to where the last edge was looked at for penetration
 };
 
@@ -152,7 +151,6 @@ class Duel {
 
   const DuelCounts& counts() const { return counts_; }
   void count(const DuelCounts& counts) { counts_ += counts; }
-  void clear_counts() { counts_ = {}; }
   void record_into(std::vector<DuelEvent>* events) { events_ = events; }
   void record_terms_into(DuelTerms* terms) { terms_ = terms; }
   void record_turned_into(std::vector<ActionId>* turned) { turned_ = turned; }  // back_turned

@@ -39,6 +39,7 @@ inline constexpr double kLeastNearness = -3.0;   // g(d) never falls below
 inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 inline constexpr double kOverlapCost = 10.0;     // points/s per metre
 inline constexpr double kRopesNear = 0.8;        // m
+inline constexpr float kInsideRopes = 0.2f;      // m: from the ropes to a root, which they hold
 
 // F_loc as a rate, points/s: `distance` of the roots (m), `cosine` of the opponent's bearing off
 // the own facing, `to_ropes` from the own root to the nearest ropes (m).

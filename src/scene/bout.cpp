@@ -203,6 +203,7 @@ void Bout::commit(FighterId id, const Plan& plan) {
 }
 
 void Bout::commit_get_up(FighterId id) {
+  note_expanded(state_, id);
   const Launch launch =
       get_up_from(library_, stage_.body(id), fighter(id).launch, state_.now, stage_.shown(id));
   begin(id, launch);
@@ -236,10 +237,6 @@ void Bout::commit_idle(FighterId id) {
         following(library_, last, idle, state_.now, opponent, stage_.body(id).scale, kIdleTurn));
 }
 
-void Bout::commit_rest(FighterId id) {
-  fighter(id).launch.end = end_ + 1;
-}
-
 void Bout::advance_one_tick() {
   if (launched_ || strikes_now()) foresee();
   ++state_.now;
@@ -253,6 +250,7 @@ void Bout::advance_one_tick() {
   commit_falls();
   stage_.keep_out_and_record();
   push_apart();
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) hold_in_ring(FighterId(i));
 }
 
 // Says when a blow is thrown, and when its time is over without a contact.
@@ -409,7 +407,9 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   if (!cuts && is_guard_part(blow.part)) {
     stage_.drive_back(target, blow.part, struck_velocity(blow));
   }
-  if (!cuts || fighter(target).down()) return;
+  const bool lies = fighter(target).down() && action_of(target).kind != Kind::get_up;
+  if (lies && outcome.knockout) put_out(target);
+  if (!cuts || lies || (fighter(target).down() && !outcome.knockout)) return;
   respond(target, input, outcome, event);
   standing_[target.at()].fell_upon = 1u << attacker.at();  // whose own blow still presses on
 }
@@ -433,12 +433,18 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   event.action = library_.action(launch.action).name;
   event.damage = 0;
   record_.timeline.events.push_back(event);
-  if (outcome.knockout) {
-    standing_[id.at()].out = true;
-    int left = 0;
-    for (std::size_t i = 0; i < standing_.size(); ++i) left += !is_out(FighterId(i)) ? 1 : 0;
-    if (left <= 1) end_ = std::min(end_, launch.end + kAfterKnockout);
-  }
+  if (outcome.knockout) put_out(id);
+}
+
+// Who is out lies to the end of the bout, which comes soon where one is left.
+void Bout::put_out(FighterId id) {
+  if (is_out(id)) return;
+  standing_[id.at()].out = true;
+  Launch& last = fighter(id).launch;
+  int left = 0;
+  for (std::size_t i = 0; i < standing_.size(); ++i) left += !is_out(FighterId(i)) ? 1 : 0;
+  if (left <= 1) end_ = std::min(end_, last.end + kAfterKnockout);
+  last.end = kNever;
 }
 
 // Whoever fights `fallen` throws no more at it than what is on its way.
@@ -507,6 +513,18 @@ void Bout::follow_feet(FighterId id) {
   const Vec3 step = left * std::min(1.0f, kMostPush / far);
   left -= step;
   shift(id, step);
+}
+
+// The ropes hold whom steps or a blow carry into them; who lies is let be.
+void Bout::hold_in_ring(FighterId id) {
+  if (scene_.ring <= 0 || !gives_way(id)) return;
+  const float inside = scene_.ring / 2 - kInsideRopes;
+  const Vec3 at = ground_position(id);
+  const auto back = [&](float x) {
+    return std::clamp(std::clamp(x, -inside, inside) - x, -kMostPush, kMostPush);
+  };
+  const Vec3 offset{back(at.x), 0, back(at.z)};
+  if (offset != Vec3{}) shift(id, offset);
 }
 
 // Who stands, and who is on the way down; not who lies or gets up.

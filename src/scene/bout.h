@@ -30,7 +30,6 @@ class Bout {
   void commit(FighterId fighter, const Plan& plan);
   void commit_get_up(FighterId fighter);
   void commit_idle(FighterId fighter);
-  void commit_rest(FighterId fighter);
   void advance_one_tick();
   FightRecord record();
 
@@ -66,9 +65,11 @@ class Bout {
   void commit_touch(const Touch& touch);
   void commit_falls();
   void deliver(FighterId attacker, FighterId target, const Blow& blow, Event event);
+  void put_out(FighterId id);
   void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
   void let_off(FighterId fallen);
   void push_apart();
+  void hold_in_ring(FighterId id);
   void follow_feet(FighterId id);
   bool gives_way(FighterId id) const;
   void shift(FighterId id, Vec3 offset);

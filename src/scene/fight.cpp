@@ -24,8 +24,6 @@ std::optional<FighterId> run_to_decision(Bout& bout) {
                                 // responses
     } else if (bout.must_get_up(fighter)) {
       bout.commit_get_up(fighter);
-    } else if (bout.is_out(fighter)) {
-      bout.commit_rest(fighter);
     } else if (bout.has_won(fighter)) {
       bout.commit_idle(fighter);
     } else {

@@ -663,6 +663,42 @@ TEST_F(DuelTest, ShowingTheBackIsPrunedButSomethingIsAlwaysLeft) {
   EXPECT_GT(moves.size(), 10u);
 }
 
+TEST_F(DuelTest, NobodyWalksThroughTheRopes) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  FightState state = facing(1.2f);
+  const auto offered = [&](double ring_half, const char* name) {
+    setup_.settings.ring_half_m = ring_half;
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, state), moves);
+    EXPECT_FALSE(moves.empty());
+    return std::any_of(moves.begin(), moves.end(),
+                       [&](const DuelMove& move) { return move.action == library().find(name); });
+  };
+  EXPECT_TRUE(offered(3, "step_back"));  // from 0.6 m off the middle to 0.9
+  EXPECT_FALSE(offered(1, "step_back"));
+  EXPECT_TRUE(offered(1, "step_fore"));
+  EXPECT_FALSE(offered(0.5, "step_back"));  // outside already: no farther
+  EXPECT_TRUE(offered(0.5, "step_fore"));   // but in again
+  EXPECT_TRUE(offered(0, "step_back"));     // there is no ring
+}
+
+TEST_F(DuelTest, WhereNothingStaysInsideTheRopesTheNearestIsLeft) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  setup_.settings.ring_half_m = 0.3;
+  FightState state = facing(1.2f);
+  state.fighters[0].launch.placement = {0, -0.6f, kPi / 2};  // sideways: every step leads on
+  state.fighters[1].launch.placement = {0.6f, -0.6f, -kPi / 2};
+  Duel game(setup_, 240);
+  std::vector<DuelMove> moves;
+  game.moves(Duel::root(setup_, state), moves);
+  EXPECT_FALSE(moves.empty());
+}
+
 TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   const FightState state = facing(0.6f);
   const DuelNode root = Duel::root(setup_, state);
@@ -702,6 +738,29 @@ TEST_F(DuelTest, DownedFightersAreHitOnlyWhereTheSceneSaysSo) {
     node = game.apply(node, choice(node, 0, "body_cross")).node;
     EXPECT_EQ(events.size(), allowed ? 1u : 0u);
     EXPECT_FALSE(node.side[1].pending.valid());  // lies already: nothing is cut
+  }
+}
+
+// Lying it is out where it lies; on its way up it falls again.
+TEST_F(DuelTest, WhoIsDownAndHasNoHealthLeftGetsUpNoMore) {
+  setup_.settings.hits_on_downed = true;
+  for (const char* down : {"duck", "get_up_back"}) {
+    FightState state = facing(0.9f);
+    state.fighters[1].balance = 2;
+    state.fighters[1].health = 50;
+    state.fighters[1].launch = launch(down, -130, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[1].flight.launch.end = 200;
+    node = game.apply(node, choice(node, 0, "body_cross")).node;
+    const Duelist& struck = node.side[1];
+    ASSERT_LE(struck.health, 0) << down;
+    EXPECT_TRUE(struck.knocked_out) << down;
+    const bool rises = library().action(library().find(down)).kind == Kind::get_up;
+    EXPECT_EQ(struck.pending.valid(), rises) << down;
+    if (!rises) {
+      EXPECT_EQ(struck.flight.launch.end, kNever);
+    }
   }
 }
 

@@ -95,5 +95,21 @@ TEST(Fight, ThreeFightersEachFaceTheirNearestOpponent) {
   EXPECT_EQ(deciders.size(), 3u);
 }
 
+TEST(Fight, NobodyLeavesTheRing) {
+  for (const char* seed : {"seed=7", "seed=21"}) {
+    const SceneFile scene =
+        scene_of("duel", {"duration_s=10", seed, "ring_m=3", "fighter.0.style=outboxer"});
+    const FightRecord record = simulate_fight(default_library(), scene);
+    float farthest = 0;
+    for (const FighterTrack& track : record.timeline.tracks) {
+      for (const Pose& pose : track.frames) {
+        farthest = std::max({farthest, std::abs(pose.hips.x), std::abs(pose.hips.z)});
+      }
+    }
+    EXPECT_LT(farthest, scene.ring / 2) << seed;
+    EXPECT_GT(farthest, scene.ring / 2 - 0.4f) << seed;  // they come near
+  }
+}
+
 }  // namespace
 }  // namespace ringcraft
