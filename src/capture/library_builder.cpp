@@ -127,8 +127,12 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
       of.entry.contains("guard_yaw_degrees") || found.segments.empty()
           ? radians(static_cast<float>(number_of(of.entry, "guard_yaw_degrees", kGuardYaw)))
           : found.guard_yaw;
-  const CaptureTracks tracks =
-      tracks_of(clip, number_of(of.entry, "guard_at", found.guard_at), yaw);
+  const double guard_at = number_of(of.entry, "guard_at", found.guard_at);
+  if (guard_at > seconds(clip.length()))
+    return input_error(file, of.manifest.place(of.pointer + "/guard_at"),
+                       fmt::format("the capture ends at {:.2f} s", seconds(clip.length())),
+                       "name a moment at which it stands in guard");
+  const CaptureTracks tracks = tracks_of(clip, guard_at, yaw);
   std::vector<ActionCut> listed;
   for (const Json& action : of.entry.value("action", Json::array()))
     listed.push_back(cut_from(action));
@@ -139,6 +143,10 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
   };
   for (std::size_t i = 0; i < listed.size(); ++i) {
     const std::string place = of.manifest.place(fmt::format("{}/action/{}/name", of.pointer, i));
+    if ((listed[i].kind == Kind::attack || listed[i].kind == Kind::combination) &&
+        listed[i].strikes.empty())
+      return input_error(file, place, fmt::format("{} strikes nothing", listed[i].name),
+                         "give it a [[capture.action.strike]], or another kind");
     auto action = cut_out(listed[i], place);
     if (!action) return tl::unexpected(action.error());
     if (auto ok = out.add(std::move(*action), file, place); !ok) return ok;

@@ -12,7 +12,9 @@ constexpr float kLetGo = 0.10f;    // s: from a set foot to a hanging one, and b
 constexpr float kRollOff = 14.0f;  // degrees of heel in the middle of a step
 constexpr float kClear =
     0.075f;  // m: of a free ankle that moves over the floor, above a standing one
-constexpr float kHanging = 25.0f;  // degrees of point of a foot that hangs
+constexpr float kComesDown = 0.8f;  // of a foot that lands: height over the way that is left
+constexpr float kLanding = 0.11f;   // m: no more than that
+constexpr float kHanging = 25.0f;   // degrees of point of a foot that hangs
 
 const Placement& placement_at(const std::vector<Placement>& root, float t) {
   const auto last = static_cast<Tick>(root.size()) - 1;
@@ -163,29 +165,60 @@ void FootMotion::make_paths(const SheetAction& action, const std::vector<SheetKe
       }
     }
     span.path.emplace(times, points, windows);
-    if (windows.empty()) make_rise(span, action, keys);
+    span.rests = !action.strikes.empty();
+    const Tick count = ticks(std::min(span.land, action.length) - span.lift);
+    span.rise.assign(static_cast<std::size_t>(std::max<Tick>(1, count)) + 1, 0);
+    if (windows.empty()) add_clearance(span, keys);
+    if (!span.ends_free) add_landing(span, windows.empty() ? span.lift : windows.back().contact);
+  }
+}
+
+// Where the path has the ankle; a foot that lands after a blow gets there early enough to come to
+// rest.
+Vec3 FootMotion::on_path(const Span& span, float t) const {
+  constexpr float kRests = 0.05f, kHurries = 0.15f;  // s
+  const float left = span.land - t;
+  if (!span.rests || span.ends_free || left <= 0) return span.path->at(t);
+  if (left < kRests) return span.path->at(span.land - left * left / (2 * kRests));
+  const float early = 1 - glm::smoothstep(kRests, kRests + kHurries, left);
+  return span.path->at(t + 0.5f * kRests * early);
+}
+
+// A foot comes down on its place: at the end of a step, and after a kick's contact at `earliest`,
+// what is left of its way is never much longer than it is high.
+void FootMotion::add_landing(Span& span, float earliest) const {
+  constexpr float kLast = 0.35f, kSetsIn = 0.15f;  // s
+  const float from = std::max(earliest, span.land - kLast);
+  const auto count = static_cast<Tick>(span.rise.size());
+  const Vec3 place = span.path->at(span.lift + static_cast<float>(seconds(count - 1)));
+  for (Tick tick = 0; tick < count; ++tick) {
+    const float t = span.lift + static_cast<float>(seconds(tick));
+    const Vec3 left = on_path(span, t) - place;
+    const float wanted = std::min(kLanding, kComesDown * std::hypot(left.x, left.z));
+    const float missing = std::max(0.0f, wanted - left.y);
+    float& rise = span.rise[static_cast<std::size_t>(tick)];
+    rise = std::max(rise, missing * glm::smoothstep(from, from + kSetsIn, t));
   }
 }
 
 // A free foot that moves over the floor does not brush it: its ankle rises the faster it goes. It
 // lies where it begins and ends, and with its shin where the knee is on the floor.
-void FootMotion::make_rise(Span& span, const SheetAction& action,
-                           const std::vector<SheetKey>& keys) const {
+void FootMotion::add_clearance(Span& span, const std::vector<SheetKey>& keys) const {
   Track knee;
   for (const SheetKey& key : keys) {
     const auto& value = key.values[index(of_side(Channel::lead_knee, side_))];
     if (value) knee.add(key.t, *value);
   }
-  const float end = std::min(span.land, action.length);
-  const Tick count = std::max<Tick>(1, ticks(end - span.lift)) + 1;
+  const auto count = static_cast<Tick>(span.rise.size());
   const float clear = skeleton_.ankle_height() + kClear;
   for (Tick tick = 0; tick < count; ++tick) {
     const float t = span.lift + static_cast<float>(seconds(tick));
-    const Vec3 way = span.path->at(t + kTickSeconds) - span.path->at(t - kTickSeconds);
+    const Vec3 way = on_path(span, t + kTickSeconds) - on_path(span, t - kTickSeconds);
     const float speed = std::hypot(way.x, way.z) / (2 * kTickSeconds);
-    const float missing = std::max(0.0f, clear - span.path->at(t).y);
+    const float missing = std::max(0.0f, clear - on_path(span, t).y);
     const float knee_up = knee.empty() ? 1 : glm::smoothstep(0.05f, 0.18f, knee.at(t).y);
-    span.rise.push_back(missing * glm::smoothstep(0.1f, 0.5f, speed) * knee_up);
+    span.rise[static_cast<std::size_t>(tick)] =
+        missing * glm::smoothstep(0.1f, 0.5f, speed) * knee_up;
   }
   widen(span.rise, 10);
   for (Tick tick = 0; tick < count; ++tick) {
@@ -268,14 +301,17 @@ FootTarget FootMotion::at(float t, const BodyTargets& trunk) const {
     foot.heel += radians(kRollOff) * rise * (1 - u);
     return foot;
   }
-  foot.ball = u < 0.5f ? span->from : span->to;
   foot.freedom = freedom(*span, t);
-  foot.ankle = span->path->at(t);
+  foot.ankle = on_path(*span, t);
   if (!span->rise.empty()) {
     const auto last = static_cast<Tick>(span->rise.size()) - 1;
     const Tick tick = std::clamp<Tick>(ticks(t - span->lift), 0, last);
     foot.ankle.y += span->rise[static_cast<std::size_t>(tick)];
   }
+  // Set down and let go of, a foot goes its ankle's way: only how it is turned passes over.
+  const bool leaves = u < 0.5f;
+  foot.ball = (leaves ? span->from : span->to) + foot.ankle -
+              span->path->at(leaves ? span->lift : span->land);
   return foot;
 }
 

@@ -91,6 +91,7 @@ class FootMotion {
     Vec3 from{}, to{};  // of the ball, m
     float height = 0;
     bool free = false, starts_free = false, ends_free = false;
+    bool rests = false;  // comes to rest before it lands
     std::optional<StrikePath> path;
     std::vector<float> rise;  // m by tick from `lift` on: how far a moving ankle is above its path
   };
@@ -101,7 +102,9 @@ class FootMotion {
                    const std::vector<Placement>& root, const Placement& end);
   void make_paths(const SheetAction& action, const std::vector<SheetKey>& keys,
                   const std::vector<Placement>& root);
-  void make_rise(Span& span, const SheetAction& action, const std::vector<SheetKey>& keys) const;
+  Vec3 on_path(const Span& span, float t) const;
+  void add_clearance(Span& span, const std::vector<SheetKey>& keys) const;
+  void add_landing(Span& span, float earliest) const;
   void make_knee(const SheetAction& action, const std::vector<SheetKey>& keys,
                  const std::vector<Placement>& root, const TrunkMotion& trunk);
 

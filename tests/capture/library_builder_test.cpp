@@ -109,6 +109,9 @@ TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
        "joint = "
        "\"leftHand\", zone = \"head\", at = 7.0 }]\n",
        "not inside"},
+      {"name = \"a\"\nkind = \"attack\"\nbegin = 3\nend = 4\n", "strikes nothing"},
+      {"name = \"a\"\nkind = \"combination\"\nbegin = 3\nend = 4\nstrike = []\n",
+       "strikes nothing"},
       {"name = \"a\"\nkind = \"idle\"\nbegin = 3\nend = 4\n[[capture.action]]\nname = \"a\"\nkind "
        "= "
        "\"idle\"\nbegin = 5\nend = 6\n",
@@ -119,6 +122,16 @@ TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
     EXPECT_THAT(actions.error().what, HasSubstr(what));
     EXPECT_THAT(actions.error().place, HasSubstr("line"));
   }
+}
+
+TEST_F(Manifest, AGuardBehindTheCapturesEndIsAnError) {
+  if (!std::filesystem::exists(kBoxing)) GTEST_SKIP() << "no captures";
+  std::string text = boxing("name = \"a\"\nkind = \"idle\"\nbegin = 3\nend = 4\n");
+  text.replace(text.find("3.05"), 4, "31.0");
+  const auto actions = collect(text);
+  ASSERT_FALSE(actions);
+  EXPECT_THAT(actions.error().what, HasSubstr("30.68"));
+  EXPECT_THAT(actions.error().place, HasSubstr("line 5"));
 }
 
 class Kickboxing : public testing::Test {
@@ -297,6 +310,35 @@ TEST_F(Kickboxing, AFilmstripShowsEveryAction) {
   for (const Action& action : *actions_)
     EXPECT_THAT(svg, HasSubstr(">" + action.name + " ")) << action.name;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+// How far a foot goes over the floor, lower than a finger is thick, before it stands or after it
+// stood. A sweep is meant to.
+TEST_F(Kickboxing, FeetOfKicksComeDownOnTheirPlace) {
+  int kicks = 0;
+  for (const Action& action : *actions_) {
+    if (!action.attacks() || captured(action) || action.name == "leg_sweep") continue;
+    const bool kick =
+        std::any_of(action.strikes.begin(), action.strikes.end(), [](const Strike& s) {
+          return s.joint == Joint::left_foot || s.joint == Joint::right_foot;
+        });
+    if (!kick) continue;
+    ++kicks;
+    for (const Joint toe : {Joint::left_toes, Joint::right_toes}) {
+      float way = 0, longest = 0;
+      Vec3 before{};
+      for (Tick t = 0; t <= action.length(); ++t) {
+        const Vec3 at = world_pose(skeleton_, action.clip.at(t)).position[index(toe)];
+        const float moved = t == 0 ? 0 : glm::length(Vec3(at.x - before.x, 0, at.z - before.z));
+        const bool brushes = at.y < skeleton_.toe_height() + 0.015f && moved > 0.3f * kTickSeconds;
+        way = brushes ? way + moved : 0;
+        longest = std::max(longest, way);
+        before = at;
+      }
+      EXPECT_LT(longest, 0.09f) << action.name;
+    }
+  }
+  EXPECT_GT(kicks, 8);
 }
 
 }  // namespace
