@@ -125,8 +125,8 @@ std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& in
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks, std::span<const Pose> lying = {});
 
-// Damage of a blow in thousandths of a point, by impulse and zone; a clean jab to the head costs
-// about 3 points, a cross 7, a hook 8, a roundhouse to the body 12. A fighter starts with 100.
+// Damage of a blow in thousandths of a point, by impulse and zone (damage.cpp): a clean jab to the
+// head costs about 3 points. A fighter starts with 100.
 std::int32_t damage_of(const Blow& blow, const ImpactOutcome& outcome);
 
 }  // namespace ringcraft

@@ -12,6 +12,7 @@ namespace {
 
 constexpr Tick kMeasured = 24;       // 0.2 s: heads are farthest at 0.1 s, trunks before 0.2 s
 constexpr float kFace = .15f;        // m before the head's joint: shows turns
+constexpr float kCalm = .01f;        // N s: moves nothing, and still says on which side it lands
 constexpr Tick kAnswers = 36;        // 0.3 s: to feel a blow and to choose what to do
 constexpr float kNearly = .03f;      // m from where the clip leads: as good as there
 constexpr float kShortest = .4f;     // of a clip's steps
@@ -66,7 +67,7 @@ float share_of_clip(const BodyModel& body, const ImpactInput& input, const Impac
   if (goes <= 0) return 0;
 
   ImpactInput calm = input;
-  calm.blow.impulse *= 1e-6f;  // not nothing: it says on which side the blow lands
+  calm.blow.impulse *= kCalm / glm::length(calm.blow.impulse);
   const std::span still(&rest, 1);
   const auto struck = simulate_response(body, input, outcome, still, kMeasured);
   const auto unstruck = simulate_response(body, calm, outcome, still, kMeasured);

@@ -152,8 +152,9 @@ Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const DuelNode
   if (foreseen.kind == DuelEvent::Kind::evaded) return event;
   event.part = name_of(foreseen.blow.contact.struck);
   event.point = frame.to_outer(foreseen.blow.contact.point);
-  event.impulse = yaw_rotation(frame.yaw) * line_of_blow(foreseen.blow.contact) * answer.impulse;
-  event.speed = -glm::dot(foreseen.blow.contact.velocity, foreseen.blow.contact.normal);
+  const Vec3 line = line_of_blow(foreseen.blow.contact);
+  event.impulse = yaw_rotation(frame.yaw) * line * answer.impulse;
+  event.speed = glm::dot(foreseen.blow.contact.velocity, line);
   event.damage = static_cast<float>(answer.damage) / 1000;
   event.response = answer.outcome.response;
   event.steps = answer.outcome.steps;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "physics/response.h"
 #include "scene/answer.h"
 #include "scene/hit_replay.h"
 #include "scene/placed_strike.h"
@@ -182,8 +183,8 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   event.replay = replay_text(body, input, answer.outcome, kNoHealth);
   answer.timeline.events.push_back(event);
 
-  // A guard that holds a blow answers by going on.
-  if (input.blow.blocked && answer.outcome.response == ResponseKind::absorb) {
+  // Who is only touched goes on, and so does a guard that holds a blow.
+  if (!interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome)) {
     answer.response = query.action;
     if (is_guard_part(input.blow.part)) {
       showing.stage().drive_back(kStruck, input.blow.part, struck_velocity(input.blow));

@@ -17,14 +17,14 @@ class Partial : public testing::Test {
   Pose fighting = stance::fighting(body);
 
   // Of a clip that bends the neck by 60 degrees.
-  float share(Part part, Vec3 impulse) const {
+  float share(Part part, Vec3 impulse, Vec3 offset = {}) const {
     std::vector<Pose> clip(60, fighting);
     for (std::size_t i = 0; i < clip.size(); ++i) {
       const float bent = radians(static_cast<float>(i));
       clip[i].rotation[index(Joint::neck)] =
           from_rotation_vector({-bent, 0, 0}) * fighting.rotation[index(Joint::neck)];
     }
-    const stance::Hit hit(body, fighting, part, impulse);
+    const stance::Hit hit(body, fighting, part, impulse, offset);
     return share_of_clip(body, hit.input, {}, fighting, clip);
   }
 };
@@ -43,6 +43,17 @@ TEST_F(Partial, NoImpulseHasNothingOfTheClipAndAHarderBlowNeverLess) {
     }
   }
   EXPECT_GT(share(Part::head, {0, 0, -12}), 1.3f * share(Part::head, {0, 0, -6}));
+}
+
+// Struck and unstruck bodies are compared as simulated on the same side.
+TEST_F(Partial, ATouchHasNothingOfTheClipOnWhicheverSideItLands) {
+  float sum = 0;
+  for (const float side : {-1.0f, 1.0f}) {
+    for (const float offset : {-.03f, .03f}) {
+      sum += share(Part::head, {.01f * side, 0, -.01f}, {offset, 0, 0});
+    }
+  }
+  EXPECT_LT(sum / 4, .008f);  // a millimetre of twelve centimetres; on different sides twice that
 }
 
 // By the impulse step alone, for the tree: as far as the head goes against the hips.

@@ -44,6 +44,23 @@ TEST(SingleHit, TheImpulseIsInTheFightersOwnAxes) {
       0.1f);
 }
 
+// As in a fight, where less than kTouchImpulse cuts nothing.
+TEST(SingleHit, WhoIsOnlyTouchedGoesOn) {
+  HitQuery hit = query();
+  hit.part = Part::head;
+  for (const float impulse : {-4.0f, -6.0f}) {
+    hit.impulse = {0, 0, impulse};
+    const auto answer = simulate_hit(default_library(), hit);
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    const auto& events = answer->timeline.events;
+    const bool answered = std::any_of(events.begin(), events.end(), [](const Event& event) {
+      return event.type == EventType::response;
+    });
+    EXPECT_EQ(answered, impulse < -kTouchImpulse);
+    EXPECT_EQ(answer->response == hit.action, !answered);
+  }
+}
+
 TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
   HitQuery hit = query("idle_guard_bounce", 0.0);
   hit.impulse = {0, 0, -20};
