@@ -46,7 +46,7 @@ const std::vector<Home> kHomes{
     {"GLM", "glm/.*", "base/vec\\.h", 1},
     {"toml++", "toml(\\+\\+/|plusplus).*", "base/[^/]+\\.cpp", 1},
     {"valijson", "valijson/.*", "base/[^/]+\\.cpp", 1},
-    {"CLI11", "CLI/.*", "cli/[^/]+\\.cpp", 9},
+    {"CLI11", "CLI/.*", "cli/([^/]+\\.cpp|ranges\\.h)", 9},
     {"Boost.Beast", "boost/(asio|beast)[/.].*", "cli/[^/]+\\.cpp", 1},
 };
 

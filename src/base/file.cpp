@@ -1,5 +1,7 @@
 #include "base/file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -79,6 +81,23 @@ Result<void> make_output_folder(const fs::path& folder) {
   }
   fs::remove(probe, failed);
   return {};
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<FolderLock> lock_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return input_error(folder.string(), "", std::strerror(errno), "check its permissions");
+  }
+  FolderLock lock(descriptor);
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return input_error(folder.string(), "", "another ringcraft is writing here",
+                       "wait for it, or choose another folder with --out");
+  }
+  return lock;
 }
 
 fs::path assets_folder() {

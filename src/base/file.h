@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 
@@ -19,6 +20,19 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view byte
 
 // Makes the folder and checks that files can be written there.
 Result<void> make_output_folder(const std::filesystem::path& folder);
+
+// A folder that is this process's as long as the value lives; others that ask are refused.
+class FolderLock {
+ public:
+  explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
+  FolderLock(FolderLock&& o) noexcept : descriptor_(std::exchange(o.descriptor_, -1)) {}
+  FolderLock& operator=(FolderLock&&) = delete;
+  ~FolderLock();
+
+ private:
+  int descriptor_;
+};
+Result<FolderLock> lock_folder(const std::filesystem::path& folder);
 
 // The folder `assets`: RINGCRAFT_ASSETS from the environment, else the source tree's.
 std::filesystem::path assets_folder();

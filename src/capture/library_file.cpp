@@ -12,13 +12,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether a file begins as a library file does; any other is taken for a manifest.
-bool is_library_file(const fs::path& file) {
+bool begins_as_library(const fs::path& file) {
   std::string head(16, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
-  return looks_like_library(head) || file.extension() == ".ringlib";
+  return looks_like_library(head);
+}
+
+// Any other is taken for a manifest.
+bool is_library_file(const fs::path& file) {
+  return begins_as_library(file) || file.extension() == ".ringlib";
 }
 
 }  // namespace
@@ -54,7 +58,15 @@ Result<MotionLibrary> load_library(const fs::path& library) {
   return library_from_bytes(*bytes, source.string());
 }
 
+Result<void> may_write_library(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || begins_as_library(file)) return {};
+  return input_error(file.string(), "", "exists and is no motion library",
+                     "give another file to write to");
+}
+
 Result<void> write_library(const MotionLibrary& library, const fs::path& file) {
+  if (auto may = may_write_library(file); !may) return may;
   return write_file(file, library_bytes(library));
 }
 

@@ -69,6 +69,9 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   if (build.interpolate || build.not_interpolated) settings.interpolate = build.interpolate;
   settings.judge = joint_limit_judge();
   settings.threads = options.threads;
+  if (!options.out.empty()) {  // before the work
+    if (const auto may = may_write_library(options.out); !may) return fail(may.error());
+  }
   const auto begin = std::chrono::steady_clock::now();
   const auto library = [&] {
     const EndAtSignal nothing_to_keep;

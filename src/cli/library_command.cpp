@@ -171,8 +171,9 @@ int run_library_check(const std::string& name, const CheckHeights& heights,
   const EndAtSignal no_file_is_written;
   auto library = load_library(name);
   if (!library) return fail(library.error());
-  const double own = heights.own > 0 ? heights.own : static_cast<double>(kCanonicalHeight);
-  const double opponent = heights.opponent > 0 ? heights.opponent : own;
+  const auto usual = static_cast<double>(kCanonicalHeight);
+  const double own = heights.own > 0 ? heights.own : usual;
+  const double opponent = heights.opponent > 0 ? heights.opponent : usual;
   const auto ratio = static_cast<float>(opponent / own);
   if (!as_tall(ratio)) library = fitted_library(*library, ratio);
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);

@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/completion.h"
+#include "cli/ranges.h"
 #include "cli/study_command.h"
 
 namespace ringcraft {
@@ -85,7 +86,7 @@ int run(int argc, char** argv) {
       ->type_name("AXIS=FROM:TO:STEP")
       ->excludes("--strike")
       ->take_all();
-  hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(CLI::Range(0.0, 1.0));
+  hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(within(0.0, 1.0));
   hit->add_option("--body", hit_options.body, "A file of assets/bodies");
   hit->add_option("--library", hit_options.library, "Motion library");
   add_common(*hit, options);
@@ -189,9 +190,9 @@ int run(int argc, char** argv) {
                     "Library file, manifest, folder, or the name of one in assets");
   add_common(*check, options);
   check->add_option("--height", check_heights.own, "Height of the fighter, m")
-      ->check(CLI::Range(1.2, 2.3));
+      ->check(within(1.2, 2.3));
   check->add_option("--opponent", check_heights.opponent, "Height of the opponent, m")
-      ->check(CLI::Range(1.2, 2.3));
+      ->check(within(1.2, 2.3));
   check->callback([&] { code = run_library_check(library_name, check_heights, options); });
 
   std::string schema_name;
@@ -205,7 +206,7 @@ int run(int argc, char** argv) {
       "bench", "What a fight costs on this machine; a signature that no machine changes");
   bench->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
   bench->add_option("--duration", bench_options.duration_s, "Length of the fight, s")
-      ->check(CLI::Range(0.5, 3600.0));
+      ->check(within(0.5, 3600.0));
   bench->add_option("--rounds", bench_options.rounds, "How often the fight is fought")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
@@ -265,9 +266,15 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   ringcraft::watch_signals();
+  const auto nothing_delivered = [] {
+    fmt::print(stderr, "ringcraft: stdout: what was asked for cannot be written; give it room\n");
+    return static_cast<int>(ringcraft::ErrorKind::input);
+  };
   try {
-    return ringcraft::run(argc, argv);
+    const int code = ringcraft::run(argc, argv);
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : nothing_delivered();
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return nothing_delivered();
     fmt::print(stderr, "ringcraft: simulation failed: {}; please report this\n", error.what());
     return static_cast<int>(ringcraft::ErrorKind::simulation);
   }

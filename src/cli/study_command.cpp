@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "capture/canonical.h"
 #include "capture/library_file.h"
+#include "cli/ranges.h"
 #include "cli/scene_inputs.h"
 #include "scene/scene_file.h"
 #include "scene/study_bouts.h"
@@ -282,17 +283,17 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
     }
     one->add_option("--bouts", study->bouts, "Bouts of each pairing")->check(CLI::Range(1, 10000));
     one->add_option("--duration", study->duration_s, "Length of a bout, s")
-        ->check(CLI::Range(0.5, 3600.0));
+        ->check(within(0.5, 3600.0));
     one->add_option("--count", study->count, "Random hits of each question")
         ->check(CLI::Range(1, 1'000'000));
     one->add_option("--library", study->library, "Motion library");
     one->add_option("--body", study->body, "A file of assets/bodies");
     one->add_option("--distance", study->distance_m, "m between the roots")
-        ->check(CLI::Range(0.0, 20.0));
+        ->check(within(0.0, 20.0));
     one->add_option("--later", study->later_s, "s by which the second motion begins later")
-        ->check(CLI::Range(0.0, 600.0));
+        ->check(within(0.0, 600.0));
     one->add_option("--limit", study->limit_m, "Depth that is still right, m")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(within(0.0, 1.0));
     one->add_option("--only", study->only, "Questions of `hits`: decision,robustness")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -302,10 +303,10 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
         ->delimiter(',')
         ->allow_extra_args(false);
     one->add_option("--slow", study->slow, "Library in the paper's manner, slower by this factor")
-        ->check(CLI::Range(1.0, 5.0));
+        ->check(within(1.0, 5.0));
     one->add_option("--leaf", study->leaf, "Leaf value")
         ->check(CLI::IsMember({"weighted", "paper", "both"}));
-    one->add_option("--ring", study->ring_m, "Side of the ring, m")->check(CLI::Range(3.0, 50.0));
+    one->add_option("--ring", study->ring_m, "Side of the ring, m")->check(within(3.0, 50.0));
     one->add_flag("--all-contacts", study->all_contacts, "Count what a strike is meant to touch");
     add_common(*one, options);
     one->callback([&code, &options, study, run = entry.run] { code = run(*study, options); });

@@ -32,6 +32,20 @@ TEST_F(FileTest, ReadsBackTheBytesThatWereWritten) {
   EXPECT_EQ(read_file(path() / "x.bin").value(), "");
 }
 
+TEST_F(FileTest, AFolderIsLockedForOneAtATime) {
+  {
+    const auto mine = lock_folder(path());
+    ASSERT_TRUE(mine);
+    const auto other = lock_folder(path());
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().kind, ErrorKind::input);
+    EXPECT_NE(other.error().what.find("another ringcraft"), std::string::npos);
+  }
+  EXPECT_TRUE(lock_folder(path()));
+  EXPECT_EQ(entries(), 0u);  // nothing is left behind
+  EXPECT_FALSE(lock_folder(path() / "none"));
+}
+
 TEST_F(FileTest, WhatIsNotARegularFileIsAnInputError) {
   for (const fs::path& wrong :
        {path() / "none", path(), path() / "none" / "x", fs::path("/dev/null")}) {
