@@ -290,7 +290,7 @@ class Page {
     this.cameras.update(t);
     this.stage.light(this.cast.centre(t));
     this.overlays.update(t);
-    this.ropes?.userData.clear(this.stage.camera, this.cameras.name === 'ring');
+    this.ropes?.userData.clear(this.stage.camera, this.cameras.target, this.cameras.name === 'ring');
     this.stage.render();
   }
 

@@ -109,19 +109,20 @@ export function makeRing(inside) {
 
   const above = new Group();  // what can stand between camera and fighters
   above.name = 'ropes';
-  const steel = new MeshStandardMaterial({ color: '#2a303c', roughness: 0.45, metalness: 0.6 });
   const at = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, z]) => new Vector3(x * half, 0, z * half));
-  at.forEach((corner, i) => {
+  const posts = at.map((corner, i) => {
+    const steel = new MeshStandardMaterial({ color: '#2a303c', roughness: 0.45, metalness: 0.6, transparent: true });
+    const cover = new MeshStandardMaterial({ color: CORNERS[i], roughness: 0.6, transparent: true });
     const out = new Vector3(Math.sign(corner.x), 0, Math.sign(corner.z)).multiplyScalar(0.16);
     const post = new Mesh(new CylinderGeometry(0.055, 0.055, 1.55, 16), steel);
     post.position.copy(corner).add(out).setY(0.775);
     post.castShadow = true;
-    const pad = new Mesh(new BoxGeometry(0.2, 1.1, 0.12),
-      new MeshStandardMaterial({ color: CORNERS[i], roughness: 0.6 }));
+    const pad = new Mesh(new BoxGeometry(0.2, 1.1, 0.12), cover);
     pad.position.copy(corner).addScaledVector(out, 0.35).setY(0.92);
     pad.rotation.y = Math.atan2(corner.x, corner.z);
     pad.castShadow = true;
     above.add(post, pad);
+    return { corner, materials: [steel, cover] };
   });
   const colours = ['#d9d4c8', '#b3261e', '#d9d4c8', '#1d55b5'];
   const sides = at.map((corner, i) => {
@@ -133,15 +134,23 @@ export function makeRing(inside) {
     });
     return { outward: corner.clone().add(next).normalize(), materials };
   });
-  // Ropes between a close camera and the fight fade away.
-  above.userData.clear = (camera, keep) => {
+  const fade = (materials, opacity) => {
+    for (const material of materials) {
+      material.opacity = Math.min(1, Math.max(0, opacity));
+      material.visible = opacity > 0.02;
+    }
+  };
+  // m over the ground
+  const apart = (a, b) => Math.hypot(a.x - b.x, a.z - b.z);
+  // Ropes and posts between a camera and the fight at `target` fade away.
+  above.userData.clear = (camera, target, keep) => {
     for (const { outward, materials } of sides) {
       const inside = half - outward.dot(camera.position);  // m from the ropes, negative outside
-      const opacity = keep ? 1 : Math.min(1, Math.max(0, (inside - 0.7) / 0.6));
-      for (const material of materials) {
-        material.opacity = opacity;
-        material.visible = opacity > 0.02;
-      }
+      fade(materials, keep ? 1 : (inside - 0.7) / 0.6);
+    }
+    for (const { corner, materials } of posts) {
+      const behind = apart(camera.position, corner) - apart(camera.position, target);
+      fade(materials, keep ? 1 : 1 + behind / 0.8);
     }
   };
   ring.add(above);
