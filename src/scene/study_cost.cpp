@@ -39,12 +39,15 @@ std::vector<Found> found_of(const MotionLibrary& library, const SceneFile& scene
   std::vector<Found> found(horizons_s.size());
   for (std::size_t h = horizons_s.size(); h-- > 0;) {
     for (Contender& one : contenders) one.style.horizon_s = horizons_s[h];
+    run.say(fmt::format("{} actions, {} s", library.launchable().size(), horizons_s[h]));
     Planner planner(library, contenders, settings, scene.seed, store);
+    PlanLimits until_told;  // a decision may take minutes
+    until_told.stop = run.interrupted;
     for (const Moment& moment : moments) {
-      if (run.stopped()) return found;
-      planner.plan(moment.state, moment.fighter, moment.last_contact);
+      planner.plan(moment.state, moment.fighter, moment.last_contact, until_told);
       const std::clock_t begin = std::clock();
-      const Plan plan = planner.plan(moment.state, moment.fighter, moment.last_contact);
+      const Plan plan = planner.plan(moment.state, moment.fighter, moment.last_contact, until_told);
+      if (run.stopped()) return found;
       found[h].ms.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
       found[h].nodes.push_back(static_cast<double>(plan.record.nodes));
       found[h].leaves.push_back(static_cast<double>(plan.record.leaves));
