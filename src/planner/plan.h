@@ -39,10 +39,9 @@ struct PruneSettings {
 
 struct PlanSettings {
   PruneSettings prune;
-  std::uint64_t node_limit =
-      25'000;                // per decision; 0 is none. Iterative deepening only under a limit
-  int threads = 1;           // never changes the result
-  double ring_half_m = 3.0;  // half the side of the square ring; 0 is no ring
+  std::uint64_t node_limit = 25'000;  // for each horizon of a decision; 0 is none
+  int threads = 1;                    // never changes the result
+  double ring_half_m = 3.0;           // half the side of the square ring; 0 is no ring
   bool hits_on_downed = false;
   bool alpha_beta = true;  // false: plain minimax, for tests
 };
@@ -62,8 +61,8 @@ struct Plan {
   bool reproducible = true;  // false under PlanLimits: another run may look less or farther ahead
 };
 
-// What does not change during a fight. Immutable but for the memo, the use counts and the searches,
-// which it keeps from plan to plan: one plan at a time.
+// What a fight's decisions share: tables of the library, and what it is told and learns from plan
+// to plan (use, habits, conditions, what is shown, impulse steps, searches). One plan at a time.
 class Planner {
  public:
   // `store`, where there is one, is looked into before an impulse step is made, and added to; it
