@@ -77,9 +77,8 @@ class RootSearch {
   }
 
   // Searches every move of `root`, where the maximizer acts; `preference` of a move's key is added
-  // to its value. The best first. Empty
-  // when the node limit (over all moves; 0 is none) was not enough. `root_game` counts what was
-  // struck off at the root.
+  // to its value. The best first. Empty when the node limit (over all moves; 0 is none) was not
+  // enough. `root_game` counts what was struck off at the root.
   template <class Preference>
   std::vector<RootMove<G>> run(G& root_game, const Node& root, const Preference& preference,
                                std::uint64_t node_limit) {

@@ -685,20 +685,6 @@ TEST_F(DuelTest, NobodyWalksThroughTheRopes) {
   EXPECT_TRUE(offered(0, "step_back"));     // there is no ring
 }
 
-TEST_F(DuelTest, WhereNothingStaysInsideTheRopesTheNearestIsLeft) {
-  Style style;
-  style.candidates = 40;
-  set_style(style);
-  setup_.settings.ring_half_m = 0.3;
-  FightState state = facing(1.2f);
-  state.fighters[0].launch.placement = {0, -0.6f, kPi / 2};  // sideways: every step leads on
-  state.fighters[1].launch.placement = {0.6f, -0.6f, -kPi / 2};
-  Duel game(setup_, 240);
-  std::vector<DuelMove> moves;
-  game.moves(Duel::root(setup_, state), moves);
-  EXPECT_FALSE(moves.empty());
-}
-
 TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   const FightState state = facing(0.6f);
   const DuelNode root = Duel::root(setup_, state);
