@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/hash.h"
 #include "motion/strike_fit.h"
@@ -20,6 +22,12 @@ Launch launched(const MotionLibrary& library, ActionId action, Tick start,
   return launch;
 }
 
+// The frame of the clip that a launch is at, and how far it is on the way to the next one, 0..1.
+std::pair<Tick, float> frame_of(const Launch& launch, Tick tick) {
+  const float age = launch.age(tick), whole = std::floor(age);
+  return {static_cast<Tick>(whole), age - whole};
+}
+
 }  // namespace
 
 std::uint64_t FightState::hash() const {
@@ -31,12 +39,18 @@ std::uint64_t FightState::hash() const {
     hasher.add(launch.placement.z).add(launch.placement.yaw).add(launch.aim).add(launch.forced);
     hasher.add(launch.spent)
         .add(launch.share)
+        .add(launch.pace.factor_)
+        .add(launch.pace.held_)
         .add(fighter.health)
         .add(fighter.balance)
         .add(fighter.opponent.value);
     hasher.add(fighter.last_at_tie);
   }
   return hasher.digest();
+}
+
+Tick Launch::clip_age(Tick tick) const {
+  return pace.as_the_clip() ? tick - start : static_cast<Tick>(std::lround(age(tick)));
 }
 
 Placement scaled(const Placement& placement, float factor) {
@@ -51,37 +65,44 @@ Tick aim_ticks(const Action& action) {
 Tick free_after_fall(const Action& action, const Launch& launch, Tick now) {
   constexpr Tick kTakenIn = 12, kTakenBack = 6;  // ticks: to see the fall; for the limb's way back
   if (!action.attacks()) return launch.end;
-  const Tick age = now - launch.start;
-  Tick until = age + kTakenIn;
+  const Tick age = launch.clip_age(now);
+  Tick until = now + kTakenIn;
   for (const Strike& strike : action.strikes) {
     const bool thrown = age >= strike.active_begin && age < strike.active_end;
-    if (thrown) until = std::max(until, strike.active_end + kTakenBack);
+    if (thrown) until = std::max(until, launch.when(strike.active_end) + kTakenBack);
   }
-  return std::min(launch.end, launch.start + until);
+  return std::min(launch.end, until);
 }
 
-float aim_share(const Action& action, Tick age) {
-  return glm::smoothstep(0.0f, static_cast<float>(aim_ticks(action)), static_cast<float>(age));
+float aim_share(const Action& action, float age) {
+  return glm::smoothstep(0.0f, static_cast<float>(aim_ticks(action)), age);
 }
 
 Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick tick) {
   if (launch.aim == 0) return launch.placement;
   Placement turned = launch.placement;
-  const float share = aim_share(library.action(launch.action), tick - launch.start);
+  const float share = aim_share(library.action(launch.action), launch.age(tick));
   turned.yaw = wrapped_angle(turned.yaw + launch.aim * share);
   return turned;
 }
 
 Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {
   const Clip& clip = library.action(launch.action).clip;
-  Placement root = scaled(clip.root_at(tick - launch.start), scale);
+  const auto [frame, into_next] = frame_of(launch, tick);
+  Placement root = clip.root_at(frame);
+  if (into_next > 0) root = mix(root, clip.root_at(frame + 1), into_next);
+  root = scaled(root, scale);
   if (launch.share < 1) root = mix(Placement{}, root, launch.share);
   return placement_at(library, launch, tick) * root;
 }
 
 Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale) {
   const Clip& clip = library.action(launch.action).clip;
-  return placed(scaled(clip.at(tick - launch.start), scale), placement_at(library, launch, tick));
+  const auto [frame, into_next] = frame_of(launch, tick);
+  const Placement placement = placement_at(library, launch, tick);
+  const Pose pose = placed(scaled(clip.at(frame), scale), placement);
+  if (into_next == 0) return pose;
+  return mix(pose, placed(scaled(clip.at(frame + 1), scale), placement), into_next);
 }
 
 float aim_at(const Action& action, const Placement& placement, Vec3 target, float scale,
@@ -115,8 +136,8 @@ float turned_away(const MotionLibrary& library, const Action& action, Tick age) 
 
 Placement answers_from(const MotionLibrary& library, const Launch& cut, Tick tick, float scale) {
   Placement placement = root_at(library, cut, tick, scale);
-  placement.yaw = wrapped_angle(placement.yaw +
-                                turned_away(library, library.action(cut.action), tick - cut.start));
+  placement.yaw = wrapped_angle(
+      placement.yaw + turned_away(library, library.action(cut.action), cut.clip_age(tick)));
   return placement;
 }
 

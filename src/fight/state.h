@@ -6,6 +6,7 @@
 
 #include "base/index.h"
 #include "base/ticks.h"
+#include "fight/pace.h"
 #include "motion/library.h"
 
 namespace ringcraft {
@@ -21,6 +22,13 @@ struct Launch {
   std::uint8_t spent = 0;  // bit i: strike i has hit, was blocked or was evaded
   // 0..1, of the clip that is shown, where a struck body stays up (physics/partial.h).
   float share = 1;
+  Pace pace;  // at which it runs through its clip
+
+  // Age of the clip at `tick`, ticks: in between frames, and to the nearest.
+  float age(Tick tick) const { return pace.age(tick - start); }
+  Tick clip_age(Tick tick) const;
+  // The first tick at which the clip is at the age `clip`, or past it.
+  Tick when(Tick clip) const { return start + pace.reached(clip); }
 
   bool operator==(const Launch&) const = default;
 };
@@ -52,9 +60,9 @@ Placement scaled(const Placement& placement, float factor);
 // Ticks over which the aim is eased in: half the startup of an attack, half the clip of the rest.
 Tick aim_ticks(const Action& action);
 
-// Share of the aim that is eased in `age` ticks after the launch: 0 at the start, 1 from
+// Share of the aim that is eased in where the clip is `age` ticks old: 0 at the start, 1 from
 // `aim_ticks` on.
-float aim_share(const Action& action, Tick age);
+float aim_share(const Action& action, float age);
 
 // Where action space lies in the world at `tick`: the launch's placement turned by the share of the
 // aim that has been eased in.
@@ -64,7 +72,7 @@ Placement placement_at(const MotionLibrary& library, const Launch& launch, Tick 
 // of the clip is shown, that share of its way. `scale`: the body's height over kCanonicalHeight.
 Placement root_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale);
 
-// The clip's frame in the world at `tick`, for a body of that scale.
+// The clip's pose in the world at `tick`, for a body of that scale.
 Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, float scale);
 
 // The turn that aims an action at `target`, rad, clamped to `most_aim`: an attack sends its blow
@@ -84,7 +92,7 @@ inline constexpr Tick kLyingTicks = 100;
 // out, what else the attack holds is not thrown. The launch's end for anything but an attack.
 Tick free_after_fall(const Action& action, const Launch& launch, Tick now);
 
-// How far, rad, the body that shows a clip `age` ticks after its beginning has turned from the way
+// How far, rad, the body that shows a clip at the age `age` has turned from the way
 // its root faces, as in a spin, beyond what an answer brings back: that begins turned by so much.
 float turned_away(const MotionLibrary& library, const Action& action, Tick age);
 

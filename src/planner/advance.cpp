@@ -212,8 +212,8 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
       const Tick over = flight.launch.start + strike.strike.active_end;
       if (over <= from || over > to || spent(flight.launch, s) || victim.pending.valid()) continue;
       if (!defense || victim.balance == 2) continue;
-      const Tick guarded = victim.flight.launch.start + defense->begin;
-      const Tick open = victim.flight.launch.start + defense->end;
+      const Tick guarded = victim.flight.launch.when(defense->begin);
+      const Tick open = victim.flight.launch.when(defense->end);
       if (open <= begin || guarded >= over) continue;
       const Frame frame = flight.frame_at(flight.launch.start + strike.landing_tick);
       const Vec3 stood = victim.flight.launch.placement.position();

@@ -368,10 +368,9 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
   const float apart = glm::distance(node.side[0].flight.root_at(node.now).position(),
                                     self.flight.root_at(node.now).position());
   const InFlight& met = node.side[0].flight;
-  const Situation situation =
-      situation_of(apart, self.flight.table->action->kind,
-                   looks_like_attack(*met.table->action, node.now - met.launch.start,
-                                     side(1).style->late_sight_s));
+  const Situation situation = situation_of(
+      apart, self.flight.table->action->kind,
+      looks_like_attack(*met.table->action, met.launch, node.now, side(1).style->late_sight_s));
   const int total = setup_->habits->total(situation);
   if (total == 0) return;
   const double belief = setup_->learning * Habits::belief(total);

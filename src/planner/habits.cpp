@@ -15,9 +15,9 @@ Situation situation_of(float distance, Kind last, bool attacked) {
   return {band, static_cast<std::uint8_t>(last), attacked};
 }
 
-bool looks_like_attack(const Action& action, Tick age, double late_sight_s) {
-  if (action.feint) return age < action.feint->parted + ticks(late_sight_s);
-  return action.attacks() && age < action.strikes.back().active_end;
+bool looks_like_attack(const Action& action, const Launch& launch, Tick now, double late_sight_s) {
+  if (action.feint) return now < launch.when(action.feint->parted) + ticks(late_sight_s);
+  return action.attacks() && now < launch.when(action.strikes.back().active_end);
 }
 
 std::size_t Habits::index_of(Situation situation) {

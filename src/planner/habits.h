@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/index.h"
-#include "motion/action.h"
+#include "fight/state.h"
 
 namespace ringcraft {
 
@@ -21,9 +21,9 @@ struct Situation {
 // `distance` of the roots, m.
 Situation situation_of(float distance, Kind last, bool attacked);
 
-// Whether `action` at that age looks like an attack whose blows are not yet over, to one who sees
-// it `late_sight_s` late: an attack, or a feint that nobody can tell from one yet.
-bool looks_like_attack(const Action& action, Tick age, double late_sight_s);
+// Whether the launch, of `action`, looks at `now` like an attack whose blows are not yet over, to
+// one who sees it `late_sight_s` late: an attack, or a feint that nobody can tell from one yet.
+bool looks_like_attack(const Action& action, const Launch& launch, Tick now, double late_sight_s);
 
 // Counts of one fighter. Constant inside a search.
 class Habits {

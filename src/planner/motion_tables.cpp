@@ -416,6 +416,14 @@ ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
   table.bound = paced(table.bound, table.clip_ages);
   table.root = paced(table.root, table.clip_ages);
   table.pose = paced(table.pose, table.clip_ages);
+  if (!motion.launch.pace.as_the_clip()) {  // in between the clip's frames, as in the fight
+    for (Tick age = 0; age <= table.length; ++age) {
+      const Tick tick = motion.launch.start + age;
+      table.root[static_cast<std::size_t>(age)] =
+          inverse(flight.frame_at(tick).placement()) *
+          root_at(library_, motion.launch, tick, body_.scale);
+    }
+  }
   for (std::size_t i = 0; i < motion.poses.size(); ++i) {
     const Tick tick = motion.from + static_cast<Tick>(i), age = flight.age(tick);
     if (age < 0 || age > table.length) continue;
@@ -472,11 +480,11 @@ InFlight::InFlight(const MotionTables& tables, const Launch& of)
   Placement turned = of.placement;
   turned.yaw += of.aim;
   aimed = Frame(turned);
-  if (of.aim != 0) aimed_from = of.start + aim_ticks(*table->action);
+  if (of.aim != 0) aimed_from = of.when(aim_ticks(*table->action));
 }
 
 Frame InFlight::frame_while_aiming(Tick tick) const {
-  const float share = aim_share(*table->action, age(tick));
+  const float share = aim_share(*table->action, launch.age(tick));
   Placement turned = launch.placement;
   turned.yaw += launch.aim * share;
   return Frame(turned);

@@ -171,13 +171,13 @@ FightState Planner::Inside::as_seen(const FightState& state, FighterId fighter,
   Launch& launch = seen.fighters[opponent.at()].launch;
   const ActionId attack = feigned[launch.action.at()];
   const Style& style = contenders[fighter.at()].style;
-  if (!attack.valid() || !looks_like_attack(library.action(launch.action), state.now - launch.start,
-                                            style.late_sight_s)) {
+  if (!attack.valid() ||
+      !looks_like_attack(library.action(launch.action), launch, state.now, style.late_sight_s)) {
     return seen;
   }
   if (style.learning * habits[opponent.at()].feint_expected(attack) > 0.5) return seen;
   launch.action = attack;
-  launch.end = std::max(state.now, launch.start + library.action(attack).length());
+  launch.end = std::max(state.now, launch.when(library.action(attack).length()));
   return seen;
 }
 
@@ -360,7 +360,7 @@ void Planner::note_habit(const FightState& state, FighterId fighter, ActionId ac
   const Kind last = in.library.action(state.fighters[fighter.at()].launch.action).kind;
   const float apart = glm::distance(root(fighter), root(other));
   const Launch& met = state.fighters[other.at()].launch;
-  const bool attacked = looks_like_attack(in.library.action(met.action), state.now - met.start,
+  const bool attacked = looks_like_attack(in.library.action(met.action), met, state.now,
                                           in.contenders[fighter.at()].style.late_sight_s);
   Habits& habits = inside_->habits[fighter.at()];
   habits.note(situation_of(apart, last, attacked), action);

@@ -131,17 +131,16 @@ FighterId Bout::nearest_opponent(FighterId id) const {
   return nearest;
 }
 
-void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated,
-                 const Pace& pace) {
+void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated) {
   fighter(id).launch = launch;
   launched_ = true;
-  stage_.begin(id, launch, std::move(simulated), pace);
+  stage_.begin(id, launch, std::move(simulated));
 }
 
 // What becomes of a planned launch: its blow goes aside, it is slower or faster, and slower still
 // where the fighter is tired. The launch ends when its clip does.
-Pace Bout::executed(FighterId id, Launch& launch) {
-  if (launch.start != state_.now) return {};  // goes on with what it does
+Launch Bout::executed(FighterId id, Launch launch) const {
+  if (launch.start != state_.now) return launch;  // goes on with what it does
   const Style& style = scene_.fighters[id.at()].style;
   const Action& action = library_.action(launch.action);
   Random random(derived_seed(scene_.seed, "execution", static_cast<std::uint64_t>(launch.start)),
@@ -150,9 +149,9 @@ Pace Bout::executed(FighterId id, Launch& launch) {
   const float aside = most(random.normal()) * radians(static_cast<float>(style.aim_error_deg));
   const float faster = most(random.normal()) * static_cast<float>(style.speed_error);
   if (action.attacks()) launch.aim += aside;
-  const Pace pace(action, (1 + faster) * standing_[id.at()].condition.pace());
-  launch.end += pace.length(action.length()) - action.length();
-  return pace;
+  launch.pace = Pace(action, (1 + faster) * standing_[id.at()].condition.pace());
+  launch.end += launch.pace.reached(action.length()) - action.length();
+  return launch;
 }
 
 // One tick of rest; the planner hears of it before its next decision.
@@ -187,9 +186,8 @@ void Bout::commit(FighterId id, const Plan& plan) {
   fighter(id).balance = 0;
   planner_->note_launch(id, plan.launch.action);
   planner_->note_habit(state_, id, plan.launch.action);
-  Launch launch = plan.launch;
-  const Pace pace = executed(id, launch);
-  begin(id, launch, {}, pace);
+  const Launch launch = executed(id, plan.launch);
+  begin(id, launch);
   standing_[id.at()].condition.launched(scene_.fighters[id.at()].style,
                                         planner_->work_of(id, launch.action));
   Event event;
@@ -257,8 +255,8 @@ void Bout::advance_one_tick() {
 void Bout::note_strikes(FighterId id) {
   Launch& launch = fighter(id).launch;
   const Action& action = action_of(id);
-  const Tick age = stage_.clip_age(id, state_.now);
-  const Tick before = stage_.clip_age(id, state_.now - 1);
+  const Tick age = launch.clip_age(state_.now);
+  const Tick before = launch.clip_age(state_.now - 1);
   for (std::size_t i = 0; i < action.strikes.size(); ++i) {
     const Strike& strike = action.strikes[i];
     const auto bit = static_cast<std::uint8_t>(1u << i);
@@ -300,7 +298,7 @@ std::vector<Bout::Touch> Bout::touches() const {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     const Launch& launch = state_.fighters[i].launch;
     const Action& action = library_.action(launch.action);
-    const Tick age = stage_.clip_age(FighterId(i), state_.now);
+    const Tick age = launch.clip_age(state_.now);
     for (std::size_t s = 0; s < action.strikes.size(); ++s) {
       const Strike& strike = action.strikes[s];
       const bool active = age >= strike.active_begin && age < strike.active_end;
@@ -363,7 +361,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   input.continued = continued;
   input.blow = blow;
   input.contacts = library_.action(fighter(target).launch.action)
-                       .clip.contacts_at(stage_.clip_age(target, state_.now));
+                       .clip.contacts_at(fighter(target).launch.clip_age(state_.now));
   input.tone = standing_[target.at()].condition.tone();
   const auto begin = Clock::now();
   ImpactOutcome outcome = impulse_step(stage_.body(target), input);
@@ -459,7 +457,7 @@ void Bout::let_off(FighterId fallen) {
 // Whether a blow may land in the next tick.
 bool Bout::strikes_now() const {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
-    const Tick age = stage_.clip_age(FighterId(i), state_.now + 1);
+    const Tick age = state_.fighters[i].launch.clip_age(state_.now + 1);
     const std::vector<Strike>& strikes = action_of(FighterId(i)).strikes;
     for (std::size_t s = 0; s < strikes.size(); ++s) {
       const bool active = age >= strikes[s].active_begin && age < strikes[s].active_end;

@@ -53,35 +53,21 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
 }
 
 Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
-  const Tick start = actor.launch.start;
-  const float age = actor.pace.age(tick - start);
-  const auto whole = static_cast<Tick>(std::floor(age));
-  const float share = age - static_cast<float>(whole);
-  const MotionLibrary& own = *actor.library;
-  Pose pose = pose_at(own, actor.launch, start + whole, actor.body.scale);
-  if (share > 0) {
-    pose = mix(pose, pose_at(own, actor.launch, start + whole + 1, actor.body.scale), share);
-  }
+  Pose pose = pose_at(*actor.library, actor.launch, tick, actor.body.scale);
   if (actor.launch.share < 1) {
     pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.launch.share);
   }
-  return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose, whole,
-                            tick);
-}
-
-Tick Stage::clip_age(const Actor& actor, Tick tick) {
-  return static_cast<Tick>(std::lround(actor.pace.age(tick - actor.launch.start)));
+  return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose,
+                            static_cast<Tick>(actor.launch.age(tick)), tick);
 }
 
 void Stage::begin(FighterId fighter, const Launch& launch) {
   begin(fighter, launch, {});
 }
 
-void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-                  const Pace& pace) {
+void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
-  actor.pace = pace;
   if (launch.share < 1) actor.rest = rest_of(*actor.library, launch, actor.body.scale);
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {
@@ -176,7 +162,7 @@ bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
   } else {
     const Pose pose = clip_pose(actor, tick);
     if (seam) motion.playback.stitch(pose, clip_pose(actor, tick + 1));
-    motion.playback.next(pose, clip.contacts_at(clip_age(actor, tick)));
+    motion.playback.next(pose, clip.contacts_at(actor.launch.clip_age(tick)));
   }
   motion.simulated = simulated;
   for (LandedLimb& limb : motion.landed) limb.step();
@@ -190,7 +176,7 @@ void Stage::show(Tick tick) {
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     actor.swept.guards =
-        guarding_parts(library_.action(actor.launch.action), clip_age(actor, tick));
+        guarding_parts(library_.action(actor.launch.action), actor.launch.clip_age(tick));
     amend(actor, actor.kept_out);
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }
@@ -298,9 +284,9 @@ MotionInFlight Stage::in_flight(FighterId fighter, Tick tick) const {
   const Tick shown = std::clamp(launch.end, tick, tick + kShownAhead) + kGoesOn;
   motion.poses = continued(fighter, tick, shown - tick + 1);
   const Tick clip_length = actor.library->action(launch.action).length();
-  const Tick over = std::min(launch.end, launch.start + actor.pace.length(clip_length)) + kGoesOn;
+  const Tick over = std::min(launch.end, launch.when(clip_length)) + kGoesOn;
   for (Tick t = launch.start; t <= std::max(shown, over); ++t) {
-    motion.clip_ages.push_back(clip_age(actor, t));
+    motion.clip_ages.push_back(launch.clip_age(t));
   }
   return motion;
 }

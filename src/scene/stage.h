@@ -12,7 +12,6 @@
 #include "scene/give.h"
 #include "scene/keep_out.h"
 #include "scene/landed.h"
-#include "scene/pace.h"
 
 namespace ringcraft {
 
@@ -32,8 +31,7 @@ class Stage {
 
   // The same for a response: `simulated` poses are shown first, one a tick, then the launch's
   // clip, or its share of it (physics/partial.h).
-  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
-             const Pace& pace = {});
+  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated);
 
   // The arm of a guard that held a blow is driven back at `velocity`, m/s, and springs back.
   void drive_back(FighterId fighter, Part part, Vec3 velocity);
@@ -55,10 +53,6 @@ class Stage {
   // After the contacts of the tick were answered: keeps limbs out of the other bodies, and records.
   void keep_out_and_record();
 
-  // Age of the clip that is shown at `tick`, nearest tick.
-  Tick clip_age(FighterId fighter, Tick tick) const {
-    return clip_age(actors_[fighter.at()], tick);
-  }
   const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
   const Pose& shown(FighterId fighter) const {
     return actors_[fighter.at()].motion.playback.shown();
@@ -94,7 +88,6 @@ class Stage {
     BodyModel body;
     Motion motion;
     Launch launch{};
-    Pace pace{};                    // of this launch
     Variation variation{};          // of this launch
     Pose rest{};                    // what a share of the clip is measured from, world
     std::vector<Pose> simulated{};  // shown before the clip, from `simulated_from` on
@@ -116,7 +109,6 @@ class Stage {
   static void amend(Actor& actor, const LimbOffsets& offsets);
   static void set_feet_aside(Actor& actor);
   Pose clip_pose(const Actor& actor, Tick tick) const;
-  static Tick clip_age(const Actor& actor, Tick tick);
 
   const MotionLibrary& library_;
   Repetitions repetitions_;

@@ -219,6 +219,32 @@ TEST_F(MotionsInFlight, ThatAreAsTheirClipsHaveTheirTables) {
   }
 }
 
+// A decision reckons with the root that the fight has: at the pace of the launch, aim and all.
+TEST_F(MotionsInFlight, HaveTheRootOfTheFightAtAnyPace) {
+  for (const float factor : {0.8f, 1.2f}) {
+    MotionInFlight motion;
+    motion.launch = launch_of(default_library(), "step_forward", 50, {0.4f, -1.0f, 0.7f});
+    motion.launch.aim = radians(10);
+    const Action& action = default_library().action(motion.launch.action);
+    motion.launch.pace = Pace(action, factor);
+    motion.launch.end = motion.launch.when(action.length());
+    motion.from = motion.launch.start;
+    for (Tick t = motion.launch.start; t <= motion.launch.end; ++t) {
+      motion.poses.push_back(pose_at(default_library(), motion.launch, t, tables().body().scale));
+      motion.clip_ages.push_back(motion.launch.clip_age(t));
+    }
+    const ActionTable shown = tables().in_flight(motion);
+    InFlight flight(tables(), motion.launch);
+    flight.table = &shown;
+    for (Tick t = motion.launch.start; t <= motion.launch.end; ++t) {
+      const Placement of_fight =
+          root_at(default_library(), motion.launch, t, tables().body().scale);
+      EXPECT_LT(glm::distance(flight.root_at(t).position(), of_fight.position()), 1e-4f) << t;
+      EXPECT_NEAR(wrapped_angle(flight.root_at(t).yaw - of_fight.yaw), 0, 1e-4f) << t;
+    }
+  }
+}
+
 TEST_F(MotionsInFlight, AreWhereTheyAreShownAndBeforeThatWhereTheClipIs) {
   MotionInFlight motion = as_the_clip();
   const Tick from = 20;

@@ -38,9 +38,9 @@ TEST_F(StageTest, AMotionInFlightIsWhatWillBeShown) {
   for (Tick t = 0; t <= 30; ++t) show(stage, t);
   Launch jab =
       launch("jab_jab_cross", 30, {0.1f, 0.05f, 0.3f});  // not where the idle stands: a blend
-  const Pace pace(default_library().action(jab.action), 0.85f);
-  jab.end = jab.start + pace.length(jab.end - jab.start);
-  stage.begin(self, jab, {}, pace);
+  jab.pace = Pace(default_library().action(jab.action), 0.85f);
+  jab.end = jab.start + jab.pace.reached(jab.end - jab.start);
+  stage.begin(self, jab);
   const MotionInFlight motion = stage.in_flight(self, 30);
   EXPECT_EQ(motion.launch, jab);
   EXPECT_EQ(motion.from, 30);
@@ -50,7 +50,7 @@ TEST_F(StageTest, AMotionInFlightIsWhatWillBeShown) {
     show(stage, t);
     const auto i = static_cast<std::size_t>(t - 30);
     EXPECT_LT(apart(stage, motion.poses[i], stage.shown(self)), 0.01f) << t;
-    EXPECT_EQ(motion.clip_ages[i], stage.clip_age(self, t));
+    EXPECT_EQ(motion.clip_ages[i], jab.clip_age(t));
     off_clip =
         std::max(off_clip, apart(stage, stage.shown(self), pose_at(default_library(), jab, t, 1)));
   }
@@ -63,10 +63,10 @@ TEST_F(StageTest, ALongMotionInFlightKeepsItsLastBlow) {
   const FighterId self(0);
   Launch jabs = launch("jab_jab_cross_jab", 0, {});
   const Action& action = default_library().action(jabs.action);
-  const Pace pace(action, 0.5f);
-  jabs.end = pace.length(action.length());
+  jabs.pace = Pace(action, 0.5f);
+  jabs.end = jabs.when(action.length());
   ASSERT_GT(jabs.end, 3 * kTicksPerSecond);
-  stage.begin(self, jabs, {}, pace);
+  stage.begin(self, jabs);
   show(stage, 0);
   const MotionTables tables(default_library(), stage.body(self));
   const ActionTable table = tables.in_flight(stage.in_flight(self, 0));

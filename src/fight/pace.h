@@ -1,6 +1,6 @@
 #pragma once
-// Pace: how fast a launch runs through its clip. The tree plans with the clip as it is; errors of
-// execution and fatigue are the fight's.
+// Pace: how fast a launch runs through its clip. The tree knows that of what is in flight and plans
+// the rest with the clips as they are; errors of execution and fatigue are the fight's.
 
 #include "motion/action.h"
 
@@ -15,10 +15,15 @@ class Pace {
 
   // Age of the clip, ticks, `ticks` after the launch.
   float age(Tick ticks) const;
-  // Ticks after the launch from which on the clip is at its end.
-  Tick length(Tick clip_length) const;
+  // Ticks after the launch from which on the clip is at the age `clip`, or past it.
+  Tick reached(Tick clip) const;
+  bool as_the_clip() const { return factor_ == 1; }
+
+  bool operator==(const Pace&) const = default;
 
  private:
+  friend struct FightState;  // hashes it
+
   float factor_ = 1;
   float held_ = 0;  // ticks after the launch for which `factor_` holds
 };

@@ -1,4 +1,4 @@
-#include "scene/pace.h"
+#include "fight/pace.h"
 
 #include <algorithm>
 
@@ -31,10 +31,10 @@ float Pace::age(Tick ticks) const {
   return factor_ * t + (1 - factor_) * gained;
 }
 
-Tick Pace::length(Tick clip_length) const {
-  if (factor_ == 1) return clip_length;
+Tick Pace::reached(Tick clip) const {
+  if (factor_ == 1) return clip;
   Tick ticks = 0;
-  while (age(ticks) < static_cast<float>(clip_length) - 1e-3f) ++ticks;
+  while (age(ticks) < static_cast<float>(clip) - 1e-3f) ++ticks;
   return ticks;
 }
 
