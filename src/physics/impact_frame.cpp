@@ -233,15 +233,17 @@ void Balance::guide(Ragdoll& ragdoll, const ImpactFrame& frame, int k) {
   guide(ragdoll, k % 2 == 0 ? from : mix(from, to, .5f), from, to);
 }
 
-void Balance::guide(Ragdoll& ragdoll, const Pose& target, const Pose& before, const Pose& after) {
+void Balance::guide(Ragdoll& ragdoll, const Pose& target, const Pose& before, const Pose& after,
+                    Vec3 unfelt) {
   const Skeleton& skeleton = body_.skeleton;
   const Vec3 at = center_of_mass(body_, world_pose(skeleton, target));
   const Vec3 moving = (center_of_mass(body_, world_pose(skeleton, after)) -
                        center_of_mass(body_, world_pose(skeleton, before))) /
                       kTickSeconds;
-  const Vec3 drift =
-      extrapolated(ragdoll.center_of_mass(), ragdoll.center_of_mass_velocity(), rate_) -
-      extrapolated(at, moving, rate_);
+  Vec3 drift = extrapolated(ragdoll.center_of_mass(), ragdoll.center_of_mass_velocity(), rate_) -
+               extrapolated(at, moving, rate_);
+  const Vec3 way = normalized_or(unfelt, Vec3{});
+  drift -= std::clamp(glm::dot(drift, way), 0.0f, glm::length(unfelt)) * way;
   const float size = glm::length(drift);
   const Vec3 shift = -drift * (size > 0 ? std::min(kBalanceGain, kMostShift / size) : 0.0f);
   Pose aimed = target;

@@ -75,8 +75,9 @@ class Balance {
   // Aims the muscles at half-tick `k` of the continued motion.
   void guide(Ragdoll& ragdoll, const ImpactFrame& frame, int k);
   // The same at any target: `target` now, moving from `before` to `after` in one tick; xi of the
-  // motion.
-  void guide(Ragdoll& ragdoll, const Pose& target, const Pose& before, const Pose& after);
+  // motion. As much of the drift as goes the way of `unfelt` (m, on the ground) is let be.
+  void guide(Ragdoll& ragdoll, const Pose& target, const Pose& before, const Pose& after,
+             Vec3 unfelt = {});
 
  private:
   const BodyModel& body_;

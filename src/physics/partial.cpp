@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "motion/ik.h"
 #include "motion/strike_fit.h"
@@ -15,6 +16,7 @@ constexpr float kFace = .15f;        // m before the head's joint: shows turns
 constexpr float kCalm = .01f;        // N s: moves nothing, and still says on which side it lands
 constexpr Tick kAnswers = 36;        // 0.3 s: to feel a blow and to choose what to do
 constexpr float kNearly = .03f;      // m from where the clip leads: as good as there
+constexpr float kStraight = .95f;    // of a leg's length: no straighter does a sway make it
 constexpr float kShortest = .4f;     // of a clip's steps
 constexpr float kSameStance = .05f;  // m: feet that stand so near to where they stood
 
@@ -46,6 +48,26 @@ float apart(const std::array<Vec3, N>& a, const std::array<Vec3, N>& b) {
   return most;
 }
 
+// How far the hips have to sink, m, so that a leg from the foot to its hip, moved by `offset`, is
+// no longer than `most`, or than it was. Nothing where that does not help.
+float sunk(Vec3 leg, Vec3 offset, float most) {
+  const Vec3 moved = leg + offset;
+  const float more = glm::dot(moved, moved) - std::max(most * most, glm::dot(leg, leg));
+  const float left = moved.y * moved.y - more;
+  return more <= 0 || moved.y <= 0 || left < 0 ? 0.0f : moved.y - std::sqrt(left);
+}
+
+// The longest of `count` ways over the ground, m.
+template <class Way>
+Vec3 farthest(std::size_t count, const Way& way) {
+  Vec3 most{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 one = way(i), over_ground{one.x, 0, one.z};
+    if (glm::length(over_ground) > glm::length(most)) most = over_ground;
+  }
+  return most;
+}
+
 // How far the feet stand at the end of a clip from where they stood at its beginning, seen from the
 // root, m of the canonical body.
 float stance_change(const Skeleton& skeleton, const Clip& clip) {
@@ -60,11 +82,34 @@ float stance_change(const Skeleton& skeleton, const Clip& clip) {
 
 }  // namespace
 
-float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
-                    const Pose& rest, std::span<const Pose> clip) {
-  if (clip.empty() || glm::length(input.blow.impulse) <= 0) return 0;
+Vec3 Sway::at(Tick after_blow) const {
+  const float t = static_cast<float>(std::max(0, after_blow)) / static_cast<float>(kMeasured);
+  return far * (t * std::exp(1 - t));
+}
+
+Pose swayed(const Skeleton& skeleton, const Pose& pose, Vec3 offset) {
+  const WorldPose stood = world_pose(skeleton, pose);
+  float sinks = 0;
+  for (const Side side : {Side::left, Side::right}) {
+    const Vec3 from_foot =
+        stood.position[index(leg(side).root)] - stood.position[index(leg(side).end)];
+    sinks = std::max(sinks, sunk(from_foot, offset, kStraight * skeleton.leg_length()));
+  }
+  Pose moved = pose;
+  moved.hips += offset - kUp * sinks;
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t end = index(leg(side).end);
+    move_limb_end(skeleton, leg(side), stood.position[end], 1.0f, moved);
+    set_world_rotation(skeleton, leg(side).end, stood.rotation[end], moved);
+  }
+  return moved;
+}
+
+Absorbed absorbed(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
+                  const Pose& rest, std::span<const Pose> clip) {
+  if (clip.empty() || glm::length(input.blow.impulse) <= 0) return {};
   const float goes = way_of_clip(body.skeleton, rest, clip);
-  if (goes <= 0) return 0;
+  if (goes <= 0) return {};
 
   ImpactInput calm = input;
   calm.blow.impulse *= kCalm / glm::length(calm.blow.impulse);
@@ -76,7 +121,17 @@ float share_of_clip(const BodyModel& body, const ImpactInput& input, const Impac
     moved =
         std::max(moved, apart(upper(body.skeleton, struck[t]), upper(body.skeleton, unstruck[t])));
   }
-  return std::min(1.0f, moved / goes);
+  Absorbed shown;
+  shown.share = std::min(1.0f, moved / goes);
+
+  const Vec3 sways =
+      farthest(struck.size(), [&](std::size_t t) { return struck[t].hips - unstruck[t].hips; });
+  const Vec3 way = normalized_or(sways, Vec3{});
+  const Vec3 by_clip = shown.share * farthest(clip.size(), [&](std::size_t t) {
+                         return way * glm::dot(clip[t].hips - rest.hips, way);
+                       });
+  shown.sway.far = way * std::clamp(glm::dot(sways - by_clip, way), 0.0f, glm::length(sways));
+  return shown;
 }
 
 void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose) {

@@ -10,13 +10,30 @@
 
 namespace ringcraft {
 
-// The share 0..1 of an absorbing response's clip that answers the blow: how far the simulated body
-// is moved by it, against how far the clip moves a body. Zero impulse has none of it, 1 where the
-// body goes as far as the clip does. `clip`: the response's poses, world, one a tick from the
-// contact on. Both are the largest way of head, face and chest about the hips; the simulated one is
-// measured on the body that tracks `rest`, with the blow and without it.
-float share_of_clip(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
-                    const Pose& rest, std::span<const Pose> clip);
+// How the hips of who absorbs a blow give to it and come back over the feet: a critically damped
+// spring that was struck, farthest 0.2 s after the blow.
+struct Sway {
+  Vec3 far{};  // world, over the ground, m
+  Vec3 at(Tick after_blow) const;
+};
+
+// What a body shows of a blow that it absorbs.
+struct Absorbed {
+  // 0..1, of the response's clip: how far the blow moves the simulated body against how far the
+  // clip moves one. Zero impulse has none of it, 1 where the body goes as far as the clip does.
+  // Both are the largest way of head, face and chest about the hips.
+  float share = 0;
+  Sway sway;  // as far as the blow moves the simulated hips and the share of the clip does not
+};
+
+// `clip`: the response's poses, world, one a tick from the contact on. The simulated body is the
+// one that tracks `rest`, with the blow and without it.
+Absorbed absorbed(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
+                  const Pose& rest, std::span<const Pose> clip);
+
+// The pose with its hips moved over the ground by `offset`, m, and its feet where they are: the
+// hips sink rather than straighten a leg.
+Pose swayed(const Skeleton& skeleton, const Pose& pose, Vec3 offset);
 
 // Takes a pose of an absorbing response's first frame to what its shares are measured from: the
 // same hips and legs, the rest of the body in the library's guard. As it is where there is no
@@ -48,7 +65,7 @@ Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale);
 // (stride_to_catch, physics/balance.h) against how far they go in the clip.
 float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides);
 
-// share_of_clip() as an impulse step tells it, 100 ms on, without a second simulation.
+// Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that

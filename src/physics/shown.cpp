@@ -377,6 +377,14 @@ class Shown {
     return mix(cut(tick), clip(tick), share);
   }
 
+  // How far the blow alone has moved the extrapolated centre of mass, m, as far as the body has not
+  // felt that yet.
+  Vec3 unfelt(float seconds) const {
+    const Vec3 velocity = frame_.blow().impulse / body_.spec.mass;
+    const float moved = seconds + 1 / pendulum_rate(body_);
+    return Vec3{velocity.x, 0, velocity.z} * moved * (1 - glm::smoothstep(kReflex, kFirm, seconds));
+  }
+
   Pose stand_tick(Tick tick) {
     const float now = static_cast<float>(tick) * kTickSeconds;
     const float meet = glm::smoothstep(kMeetFrom, meet_by_, now);
@@ -386,7 +394,7 @@ class Shown {
       const float at = now - kTickSeconds + static_cast<float>(half) * kRagdollStep;
       ragdoll_.set_tone(standing_tone(at, tone_));
       ragdoll_.set_servo(.05f, at < kReflex);
-      balance_.guide(ragdoll_, half == 0 ? from : mix(from, to, .5f), from, to);
+      balance_.guide(ragdoll_, half == 0 ? from : mix(from, to, .5f), from, to, unfelt(at));
       step(2 * (tick - 1) + half);
     }
     Pose pose = ragdoll_.pose();

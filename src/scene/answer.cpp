@@ -49,11 +49,19 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
         way_left(body.skeleton, std::span(target).first(static_cast<std::size_t>(clip) + 1));
     const Pose rest = rest_of(library, answer.launch, body.scale);
     const Clip& steps_of = library.action(response).clip;
-    answer.launch.share =
-        steps ? share_of_steps(body, outcome, strides_of(library.skeleton(), steps_of, body.scale))
-              : share_of_clip(body, input, outcome, rest, target);
-    if (answer.launch.share < 1) {
-      for (Pose& pose : target) pose = partial_pose(body.skeleton, rest, pose, answer.launch.share);
+    if (steps) {
+      answer.launch.share =
+          share_of_steps(body, outcome, strides_of(library.skeleton(), steps_of, body.scale));
+    } else {
+      const Absorbed shows = absorbed(body, input, outcome, rest, target);
+      answer.launch.share = shows.share;
+      answer.sway = shows.sway;
+    }
+    for (std::size_t t = 0; t < target.size(); ++t) {
+      if (answer.launch.share < 1) {
+        target[t] = partial_pose(body.skeleton, rest, target[t], answer.launch.share);
+      }
+      target[t] = swayed(body.skeleton, target[t], answer.sway.at(static_cast<Tick>(t)));
     }
     answer.launch.end = now + free_again(left, answer.launch.share);
   }

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "fight/state.h"
-#include "physics/impact.h"
+#include "physics/partial.h"
 
 namespace ringcraft {
 
 struct Answer {
   Launch launch;                // of the response action, from where the cut action stands
   std::vector<Pose> simulated;  // world, one a tick from launch.start + 1 on
+  Sway sway;                    // of who absorbs the blow
 };
 
 // `cut`: the interrupted launch, at tick `now`.

@@ -131,10 +131,11 @@ FighterId Bout::nearest_opponent(FighterId id) const {
   return nearest;
 }
 
-void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated) {
+void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated,
+                 const Sway& sway) {
   fighter(id).launch = launch;
   launched_ = true;
-  stage_.begin(id, launch, std::move(simulated));
+  stage_.begin(id, launch, std::move(simulated), sway);
 }
 
 // What becomes of a planned launch: its blow goes aside, it is slower or faster, and slower still
@@ -419,7 +420,7 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   const bool falls = outcome.response == ResponseKind::knockdown;
   Answer answer = answer_to(library_, stage_.body(id), cut, state_.now, input, outcome);
   const Launch launch = answer.launch;
-  begin(id, launch, std::move(answer.simulated));
+  begin(id, launch, std::move(answer.simulated), answer.sway);
   if (falls) let_off(id);
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
   standing_[id.at()].fell_upon = 0;

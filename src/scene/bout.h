@@ -54,7 +54,8 @@ class Bout {
   Vec3 ground_position(FighterId id) const;
   bool enemies(FighterId a, FighterId b) const;
   FighterId nearest_opponent(FighterId id) const;
-  void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {});
+  void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
+             const Sway& sway = {});
   Launch executed(FighterId id, Launch launch) const;
   void show_planner(FighterId id);
   void tire(FighterId id);

@@ -93,7 +93,7 @@ class Showing {
   void show_answer(Answer answer, const ImpactOutcome& outcome) {
     lies_ = outcome.knockout;
     const Tick end = answer.launch.end;
-    stage_.begin(kStruck, answer.launch, std::move(answer.simulated));
+    stage_.begin(kStruck, answer.launch, std::move(answer.simulated), answer.sway);
     settle();
     show_to(end);
     if (outcome.response == ResponseKind::knockdown && !outcome.knockout) {

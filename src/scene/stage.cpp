@@ -6,7 +6,6 @@
 
 #include "base/random.h"
 #include "motion/ik.h"
-#include "physics/partial.h"
 #include "planner/condition.h"
 #include "scene/answer.h"
 #include "scene/keep_out.h"
@@ -57,6 +56,9 @@ Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
   if (actor.launch.share < 1) {
     pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.launch.share);
   }
+  if (actor.sway.far != Vec3{}) {
+    pose = swayed(actor.body.skeleton, pose, actor.sway.at(tick - actor.launch.start));
+  }
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose,
                             static_cast<Tick>(actor.launch.age(tick)), tick);
 }
@@ -65,9 +67,11 @@ void Stage::begin(FighterId fighter, const Launch& launch) {
   begin(fighter, launch, {});
 }
 
-void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated) {
+void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
+                  const Sway& sway) {
   Actor& actor = actors_[fighter.at()];
   actor.launch = launch;
+  actor.sway = sway;
   if (launch.share < 1) actor.rest = rest_of(*actor.library, launch, actor.body.scale);
   // No two launches of a fight are alike, and none depends on anything but the record.
   if (repetitions_ == Repetitions::varied) {

@@ -8,6 +8,7 @@
 #include "motion/variation.h"
 #include "physics/contact.h"
 #include "physics/limits.h"
+#include "physics/partial.h"
 #include "planner/motion_tables.h"
 #include "scene/give.h"
 #include "scene/keep_out.h"
@@ -30,8 +31,9 @@ class Stage {
   void begin(FighterId fighter, const Launch& launch);
 
   // The same for a response: `simulated` poses are shown first, one a tick, then the launch's
-  // clip, or its share of it (physics/partial.h).
-  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated);
+  // clip, or its share of it, as it sways (physics/partial.h).
+  void begin(FighterId fighter, const Launch& launch, std::vector<Pose> simulated,
+             const Sway& sway = {});
 
   // The arm of a guard that held a blow is driven back at `velocity`, m/s, and springs back.
   void drive_back(FighterId fighter, Part part, Vec3 velocity);
@@ -90,6 +92,7 @@ class Stage {
     Launch launch{};
     Variation variation{};          // of this launch
     Pose rest{};                    // what a share of the clip is measured from, world
+    Sway sway{};                    // of this launch
     std::vector<Pose> simulated{};  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
     bool seam = false;              // a launch began that is not shown yet

@@ -17,7 +17,7 @@ class Partial : public testing::Test {
   Pose fighting = stance::fighting(body);
 
   // Of a clip that bends the neck by 60 degrees.
-  float share(Part part, Vec3 impulse, Vec3 offset = {}) const {
+  Absorbed shows(Part part, Vec3 impulse, Vec3 offset = {}) const {
     std::vector<Pose> clip(60, fighting);
     for (std::size_t i = 0; i < clip.size(); ++i) {
       const float bent = radians(static_cast<float>(i));
@@ -25,7 +25,10 @@ class Partial : public testing::Test {
           from_rotation_vector({-bent, 0, 0}) * fighting.rotation[index(Joint::neck)];
     }
     const stance::Hit hit(body, fighting, part, impulse, offset);
-    return share_of_clip(body, hit.input, {}, fighting, clip);
+    return absorbed(body, hit.input, {}, fighting, clip);
+  }
+  float share(Part part, Vec3 impulse, Vec3 offset = {}) const {
+    return shows(part, impulse, offset).share;
   }
 };
 
@@ -54,6 +57,55 @@ TEST_F(Partial, ATouchHasNothingOfTheClipOnWhicheverSideItLands) {
     }
   }
   EXPECT_LT(sum / 4, .008f);  // a millimetre of twelve centimetres; on different sides twice that
+}
+
+TEST_F(Partial, ABlowSwaysTheHipsItsWayAndTheyComeBack) {
+  for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}}) {
+    float last = 0;
+    for (const float impulse : {10.0f, 20.0f, 35.0f}) {
+      const Sway sway = shows(Part::abdomen, impulse * way).sway;
+      EXPECT_GT(glm::dot(sway.far, way), last + .005f) << impulse;
+      EXPECT_GT(glm::dot(glm::normalize(sway.far), way), .9f) << impulse;
+      last = glm::dot(sway.far, way);
+      EXPECT_EQ(sway.at(0), Vec3{});
+      EXPECT_LT(glm::distance(sway.at(24), sway.far), 1e-5f);
+      EXPECT_LT(glm::length(sway.at(120)), .12f * last);
+    }
+  }
+  EXPECT_EQ(shows(Part::abdomen, {}).sway.far, Vec3{});
+}
+
+// What the clip does with the hips by itself is not shown twice.
+TEST_F(Partial, ASwayIsWhatTheClipLeavesOfTheWay) {
+  const stance::Hit hit(body, fighting, Part::abdomen, {0, 0, -30});
+  std::vector<Pose> clip(60, fighting);
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    clip[i].rotation[index(Joint::spine)] =
+        from_rotation_vector({-radians(static_cast<float>(i)), 0, 0}) *
+        fighting.rotation[index(Joint::spine)];
+  }
+  const Absorbed bends = absorbed(body, hit.input, {}, fighting, clip);
+  for (Pose& pose : clip) pose.hips.z -= .1f;
+  const Absorbed goes = absorbed(body, hit.input, {}, fighting, clip);
+  EXPECT_FLOAT_EQ(goes.share, bends.share);
+  EXPECT_NEAR(goes.sway.far.z, bends.sway.far.z + .1f * bends.share, 1e-4f);
+}
+
+TEST_F(Partial, WhoSwaysKeepsItsFeetAndNoStraighterLegs) {
+  const WorldPose stood = world_pose(body.skeleton, fighting);
+  for (const Vec3& offset : {Vec3{0, 0, -.1f}, Vec3{.08f, 0, 0}, Vec3{0, 0, .1f}}) {
+    const Pose moved = swayed(body.skeleton, fighting, offset);
+    const WorldPose world = world_pose(body.skeleton, moved);
+    EXPECT_NEAR(moved.hips.x, fighting.hips.x + offset.x, 1e-5f);
+    EXPECT_NEAR(moved.hips.z, fighting.hips.z + offset.z, 1e-5f);
+    EXPECT_LE(moved.hips.y, fighting.hips.y);
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t end = index(leg(side).end);
+      EXPECT_LT(glm::distance(world.position[end], stood.position[end]), 1e-3f);
+      EXPECT_LT(reach_share(body.skeleton, leg(side), world),
+                std::max(.95f, reach_share(body.skeleton, leg(side), stood)) + 1e-3f);
+    }
+  }
 }
 
 // By the impulse step alone, for the tree: as far as the head goes against the hips.

@@ -81,6 +81,26 @@ TEST_F(Shown, AHarderBlowThrowsTheHeadFarther) {
   EXPECT_LT(thrown(24), radians(80));
 }
 
+// The hips follow what is pushed above them until the body has felt the blow; it used to push them
+// against it at once, as if it had known.
+TEST_F(Shown, NobodyHoldsAgainstABlowBeforeItIsFelt) {
+  const auto hips = [&](Part part, Vec3 impulse) {
+    const auto struck = respond(part, impulse, 24), unstruck = respond(part, {}, 24);
+    std::vector<float> along;
+    for (std::size_t t = 0; t < struck.size(); ++t) {
+      along.push_back(glm::dot(struck[t].hips - unstruck[t].hips, glm::normalize(impulse)));
+    }
+    return along;
+  };
+  for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}) {
+    const auto of_head = hips(Part::head, 18.0f * way);
+    for (Tick t = 0; t < 12; ++t) {
+      EXPECT_GT(of_head[static_cast<std::size_t>(t)], -.004f) << t;
+    }
+    EXPECT_GT(hips(Part::abdomen, 30.0f * way)[17], .03f);
+  }
+}
+
 TEST_F(Shown, WithoutABlowTheBodyStaysWhereTheClipIs) {
   for (const Pose& pose : respond(Part::chest, {}, 60)) {
     EXPECT_LT(largest_joint_distance(world(pose), world(fighting)), .04f);
