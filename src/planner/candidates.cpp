@@ -240,8 +240,10 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   aspect.opponent_then = other.flight.root_at(aspect.opponent_still).position();
   const double ring_half = setup_->settings.ring_half_m;
   aspect.ropes_half = ring_half > 0 ? ring_half : kNoRopes;
+  constexpr float kRounding = .001f;  // m: an idle at the ropes stays where it is
   aspect.held_at = std::max(static_cast<float>(aspect.ropes_half) - kInsideRopes,
-                            farther_out(aspect.end.x, aspect.end.z));
+                            farther_out(aspect.end.x, aspect.end.z)) +
+                   kRounding;
   const Tick age = node.now - other.flight.launch.start;
   aspect.late =
       other.flight.table->action->attacks() && age < ticks(aspect.own->style->late_sight_s);

@@ -685,6 +685,27 @@ TEST_F(DuelTest, NobodyWalksThroughTheRopes) {
   EXPECT_TRUE(offered(0, "step_back"));     // there is no ring
 }
 
+// Wherever the ropes are, rounding takes nobody through them.
+TEST_F(DuelTest, WhoStandsAtTheRopesMayStay) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  setup_.settings.ring_half_m = 0.5;
+  for (int turn = 0; turn < 60; ++turn) {
+    FightState state = facing(1.2f);
+    for (FighterState& one : state.fighters) {
+      one.launch.placement =
+          Placement{0, 0, 0.1f * static_cast<float>(turn)} * one.launch.placement;
+    }
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, state), moves);
+    EXPECT_TRUE(std::any_of(moves.begin(), moves.end(), [&](const DuelMove& move) {
+      return move.action == library().find("idle");
+    })) << turn;
+  }
+}
+
 TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   const FightState state = facing(0.6f);
   const DuelNode root = Duel::root(setup_, state);
