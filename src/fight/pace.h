@@ -17,13 +17,12 @@ class Pace {
   float age(Tick ticks) const;
   // Ticks after the launch from which on the clip is at the age `clip`, or past it.
   Tick reached(Tick clip) const;
+  float factor() const { return factor_; }
   bool as_the_clip() const { return factor_ == 1; }
 
   bool operator==(const Pace&) const = default;
 
  private:
-  friend struct FightState;  // hashes it
-
   float factor_ = 1;
   float held_ = 0;  // ticks after the launch for which `factor_` holds
 };

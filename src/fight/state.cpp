@@ -39,8 +39,7 @@ std::uint64_t FightState::hash() const {
     hasher.add(launch.placement.z).add(launch.placement.yaw).add(launch.aim).add(launch.forced);
     hasher.add(launch.spent)
         .add(launch.share)
-        .add(launch.pace.factor_)
-        .add(launch.pace.held_)
+        .add(launch.pace.factor())
         .add(fighter.health)
         .add(fighter.balance)
         .add(fighter.opponent.value);

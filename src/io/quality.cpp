@@ -30,9 +30,9 @@ std::vector<std::uint32_t> intended_by_tick(const FighterTrack& track,
     const Launch& launch = segment.launch;
     if (!launch.action.valid() || launch.action.at() >= library.actions().size()) continue;
     for (const Strike& strike : library.action(launch.action).strikes) {
-      const Tick begin = std::max(launch.start + strike.active_begin, 0);
+      const Tick begin = std::max(launch.when(strike.active_begin), 0);
       if (begin > launch.end) continue;  // cut before it came to that
-      const Tick end = std::min(launch.start + strike.active_end, launch.end) + kIntendedContact;
+      const Tick end = std::min(launch.when(strike.active_end), launch.end) + kIntendedContact;
       for (Tick tick = begin; tick < std::min(end, last_tick); ++tick) {
         parts[static_cast<std::size_t>(tick)] |= striking_limb(strike);
       }

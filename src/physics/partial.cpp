@@ -57,17 +57,6 @@ float sunk(Vec3 leg, Vec3 offset, float most) {
   return more <= 0 || moved.y <= 0 || left < 0 ? 0.0f : moved.y - std::sqrt(left);
 }
 
-// The longest of `count` ways over the ground, m.
-template <class Way>
-Vec3 farthest(std::size_t count, const Way& way) {
-  Vec3 most{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 one = way(i), over_ground{one.x, 0, one.z};
-    if (glm::length(over_ground) > glm::length(most)) most = over_ground;
-  }
-  return most;
-}
-
 // How far the feet stand at the end of a clip from where they stood at its beginning, seen from the
 // root, m of the canonical body.
 float stance_change(const Skeleton& skeleton, const Clip& clip) {
@@ -124,13 +113,17 @@ Absorbed absorbed(const BodyModel& body, const ImpactInput& input, const ImpactO
   Absorbed shown;
   shown.share = std::min(1.0f, moved / goes);
 
-  const Vec3 sways =
-      farthest(struck.size(), [&](std::size_t t) { return struck[t].hips - unstruck[t].hips; });
+  Vec3 sways{};
+  for (std::size_t t = 0; t < struck.size(); ++t) {
+    const Vec3 hips = struck[t].hips - unstruck[t].hips, over_ground{hips.x, 0, hips.z};
+    if (glm::length(over_ground) > glm::length(sways)) sways = over_ground;
+  }
   const Vec3 way = normalized_or(sways, Vec3{});
-  const Vec3 by_clip = shown.share * farthest(clip.size(), [&](std::size_t t) {
-                         return way * glm::dot(clip[t].hips - rest.hips, way);
-                       });
-  shown.sway.far = way * std::clamp(glm::dot(sways - by_clip, way), 0.0f, glm::length(sways));
+  float by_clip = 0;
+  for (const Pose& pose : clip.first(std::min<std::size_t>(clip.size(), kMeasured + 1))) {
+    by_clip = std::max(by_clip, shown.share * glm::dot(pose.hips - rest.hips, way));
+  }
+  shown.sway.far = way * std::max(0.0f, glm::length(sways) - by_clip);
   return shown;
 }
 

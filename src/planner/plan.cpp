@@ -150,8 +150,8 @@ FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighte
   FighterId nearest;
   float least = std::numeric_limits<float>::max();
   const auto root = [&](std::size_t i) {
-    return InFlight(*tables[static_cast<std::size_t>(body_of[i])], state.fighters[i].launch)
-        .root_at(state.now);
+    const float scale = tables[static_cast<std::size_t>(body_of[i])]->body().scale;
+    return root_at(library, state.fighters[i].launch, state.now, scale);
   };
   const Placement own = root(fighter.at());
   for (std::size_t i = 0; i < state.fighters.size(); ++i) {
@@ -177,6 +177,7 @@ FightState Planner::Inside::as_seen(const FightState& state, FighterId fighter,
   }
   if (style.learning * habits[opponent.at()].feint_expected(attack) > 0.5) return seen;
   launch.action = attack;
+  launch.pace = {};  // nobody sees how fast what is not thrown would have come
   launch.end = std::max(state.now, launch.when(library.action(attack).length()));
   return seen;
 }
@@ -283,7 +284,7 @@ Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact
   if (move.move.forced) {
     plan.launch = forced_get_up(in.library, self.launch, move.move.action, state.now, scale);
   } else {
-    const InFlight other(*setup.side[1].tables, state.fighters[view->opponent.at()].launch);
+    const InFlight other = Duel::root(setup, state).side[1].flight;
     // Where a path leads to the chosen action, its first transition is launched; the fight may play
     // the rest (plan.then) or let the fighter decide anew.
     const ActionId action = move.move.first();
@@ -354,8 +355,8 @@ void Planner::note_habit(const FightState& state, FighterId fighter, ActionId ac
   const FighterId other = in.opponent_of(state, fighter);
   if (!other.valid()) return;
   const auto root = [&](FighterId who) {
-    const MotionTables& tables = *in.tables[static_cast<std::size_t>(in.body_of[who.at()])];
-    return InFlight(tables, state.fighters[who.at()].launch).root_at(state.now).position();
+    const float scale = in.tables[static_cast<std::size_t>(in.body_of[who.at()])]->body().scale;
+    return root_at(in.library, state.fighters[who.at()].launch, state.now, scale).position();
   };
   const Kind last = in.library.action(state.fighters[fighter.at()].launch.action).kind;
   const float apart = glm::distance(root(fighter), root(other));

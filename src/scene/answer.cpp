@@ -44,10 +44,10 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   for (Tick t = 0; t <= std::max(clip, ticks + kAhead); ++t) {
     target.push_back(pose_at(library, answer.launch, now + t, body.scale));
   }
+  const Pose rest = rest_of(library, answer.launch, body.scale);
   if (!falls) {
     const std::vector<float> left =
         way_left(body.skeleton, std::span(target).first(static_cast<std::size_t>(clip) + 1));
-    const Pose rest = rest_of(library, answer.launch, body.scale);
     const Clip& steps_of = library.action(response).clip;
     if (steps) {
       answer.launch.share =
@@ -57,20 +57,24 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
       answer.launch.share = shows.share;
       answer.sway = shows.sway;
     }
-    for (std::size_t t = 0; t < target.size(); ++t) {
-      if (answer.launch.share < 1) {
-        target[t] = partial_pose(body.skeleton, rest, target[t], answer.launch.share);
-      }
-      target[t] = swayed(body.skeleton, target[t], answer.sway.at(static_cast<Tick>(t)));
-    }
     answer.launch.end = now + free_again(left, answer.launch.share);
   }
   target.resize(static_cast<std::size_t>(ticks + kAhead) + 1);
+  for (std::size_t t = 0; t < target.size(); ++t) {
+    target[t] = part_of_answer(body.skeleton, rest, target[t], answer.launch.share,
+                               answer.sway.at(static_cast<Tick>(t)));
+  }
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));
   if (steps) carry(library, body.scale, answer.simulated.back(), now + ticks, answer.launch);
   if (falls) answer.launch.end = now + static_cast<Tick>(answer.simulated.size());
   return answer;
+}
+
+Pose part_of_answer(const Skeleton& skeleton, const Pose& rest, const Pose& clip, float share,
+                    Vec3 sway) {
+  Pose pose = share < 1 ? partial_pose(skeleton, rest, clip, share) : clip;
+  return sway == Vec3{} ? pose : swayed(skeleton, pose, sway);
 }
 
 Pose rest_of(const MotionLibrary& library, const Launch& response, float scale) {

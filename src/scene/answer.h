@@ -24,6 +24,10 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
 // head and the arms of the guard. A captured clip may begin with the head turned away.
 Pose rest_of(const MotionLibrary& library, const Launch& response, float scale);
 
+// What is shown of a pose of an answer's clip: the share of its way from `rest`, swayed.
+Pose part_of_answer(const Skeleton& skeleton, const Pose& rest, const Pose& clip, float share,
+                    Vec3 sway);
+
 // The get-up that starts nearest to the pose that is shown, placed on it.
 Launch get_up_from(const MotionLibrary& library, const BodyModel& body, const Launch& fallen,
                    Tick now, const Pose& shown);

@@ -52,13 +52,9 @@ Stage::Stage(const MotionLibrary& library, std::vector<BodyModel> bodies, Repeti
 }
 
 Pose Stage::clip_pose(const Actor& actor, Tick tick) const {
-  Pose pose = pose_at(*actor.library, actor.launch, tick, actor.body.scale);
-  if (actor.launch.share < 1) {
-    pose = partial_pose(actor.body.skeleton, actor.rest, pose, actor.launch.share);
-  }
-  if (actor.sway.far != Vec3{}) {
-    pose = swayed(actor.body.skeleton, pose, actor.sway.at(tick - actor.launch.start));
-  }
+  const Pose clip = pose_at(*actor.library, actor.launch, tick, actor.body.scale);
+  const Pose pose = part_of_answer(actor.body.skeleton, actor.rest, clip, actor.launch.share,
+                                   actor.sway.at(tick - actor.launch.start));
   return actor.variation.of(actor.body.skeleton, library_.action(actor.launch.action), pose,
                             static_cast<Tick>(actor.launch.age(tick)), tick);
 }

@@ -90,7 +90,7 @@ TEST_F(PaceTest, ABlowOnItsWayEndsAtItsPace) {
   const Strike& strike = cross().strikes.front();
   const auto free = [&](float factor) {
     const Launch launch = paced("cross", factor);
-    return free_after_fall(cross(), launch, launch.when(strike.active_end - 1)) - launch.start;
+    return free_after_fall(cross(), launch, launch.when(strike.active_begin)) - launch.start;
   };
   EXPECT_GT(free(0.8f), free(1) + 3);
 }

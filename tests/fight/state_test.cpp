@@ -186,7 +186,7 @@ TEST_F(StateTest, TieOfThreeLetsTheOtherTwoGoFirstNextTime) {
 
 TEST_F(StateTest, HashSeesEveryField) {
   const FightState base = state({20, 30});
-  std::vector<FightState> changed(9, base);
+  std::vector<FightState> changed(11, base);
   changed[0].now = 1;
   changed[1].fighters[0].launch.placement.x = 0.001f;
   changed[2].fighters[1].launch.aim = 0.1f;
@@ -196,6 +196,9 @@ TEST_F(StateTest, HashSeesEveryField) {
   changed[6].fighters[0].last_at_tie = true;
   changed[7].fighters[0].opponent = FighterId(1);
   changed[8].fighters.pop_back();
+  changed[9].fighters[1].launch.share = 0.5f;
+  changed[10].fighters[0].launch.pace =
+      Pace(library().action(changed[10].fighters[0].launch.action), 0.9f);
   std::vector<std::uint64_t> hashes{base.hash()};
   for (const FightState& one : changed) {
     EXPECT_FALSE(one == base);

@@ -86,8 +86,8 @@ TEST(StruckBodies, GoFartherTheHarderTheyArePushed) {
   }
 }
 
-// A kick to the body is seen: whoever absorbs it gives way with the hips, and takes the time of a
-// pendulum to come back. 37 N s are what a front kick has (v / w0 is 8 cm there).
+// A kick to the body is seen: whoever absorbs it gives way with the hips, and has them back with
+// its next action. 37 N s are what a front kick has (v / w0 is 8 cm there).
 TEST(StruckBodies, GiveWayToAKickThatTheyAbsorb) {
   const HitAnswer answer = answer_to_case({"idle_guard_bounce", .1, Part::abdomen, {0, 0, -37}, 1});
   ASSERT_EQ(answer.outcome.response, ResponseKind::absorb);
