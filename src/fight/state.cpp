@@ -99,7 +99,7 @@ Pose pose_at(const MotionLibrary& library, const Launch& launch, Tick tick, floa
   const Clip& clip = library.action(launch.action).clip;
   const auto [frame, into_next] = frame_of(launch, tick);
   const Placement placement = placement_at(library, launch, tick);
-  const Pose pose = placed(scaled(clip.at(frame), scale), placement);
+  Pose pose = placed(scaled(clip.at(frame), scale), placement);
   if (into_next == 0) return pose;
   return mix(pose, placed(scaled(clip.at(frame + 1), scale), placement), into_next);
 }
