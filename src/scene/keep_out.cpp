@@ -46,15 +46,11 @@ Vec3 way_out(const Capsule& part, std::span<const BodyCapsules> others, Vec3 awa
   return way;
 }
 
+// As little of the limb turns as that takes: a folded one does not turn over.
 void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
   const Limb& limb = kArmsAndLegs[mover];
-  const WorldPose world = world_pose(body.skeleton, pose);
-  const Vec3 fallback = mover < 2 ? -kUp : world.rotation[0] * kForward;
-  LimbTarget target;
-  target.position = world.position[index(limb.end)] + way;
-  target.pole = present_pole(world, limb, fallback);
-  target.soft_share = 1.0f;
-  solve_limb(body.skeleton, limb, target, pose);
+  const Vec3 end = world_pose(body.skeleton, pose).position[index(limb.end)];
+  move_limb_end(body.skeleton, limb, end + way, 1.0f, pose);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/ticks.h"
+#include "motion/ik.h"
 #include "physics/penetration.h"
 #include "physics/stances.h"
 #include "scene/landed.h"
@@ -83,6 +84,29 @@ TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
     EXPECT_LE(glm::distance(before, offsets[0]), kComingFree * kTickSeconds + 1e-6f);
   }
   EXPECT_NEAR(seconds(ticks), .05 / static_cast<double>(kComingFree), .01);
+}
+
+// A round kick that has landed and swings through is held where it landed, at last behind its own
+// hip and on its other side.
+TEST_F(KeepOut, ALegThatIsHeldBackDoesNotTurnOver) {
+  const Limb limb = leg(Side::right);
+  const Vec3 hip = world_pose(body.skeleton, pose).position[index(limb.root)];
+  Pose kicks = pose;
+  move_limb_end(body.skeleton, limb, hip + Vec3{-.10f, -.20f, .40f}, 1.0f, kicks);
+  const Vec3 back = glm::normalize(Vec3{1, 0, -1});
+  std::array<Quat, 2> before{};
+  for (int centimetres = 0; centimetres <= 75; ++centimetres) {
+    LimbOffsets offsets{};
+    offsets[3] = .01f * static_cast<float>(centimetres) * back;
+    const WorldPose shown = world_pose(body.skeleton, with_offsets(body, kicks, offsets));
+    const std::array<Quat, 2> now{shown.rotation[index(limb.root)],
+                                  shown.rotation[index(limb.middle)]};
+    for (std::size_t i = 0; i < now.size() && centimetres > 0; ++i) {
+      EXPECT_LT(glm::length(rotation_vector(now[i] * glm::conjugate(before[i]))), radians(10))
+          << centimetres;
+    }
+    before = now;
+  }
 }
 
 class Landed : public KeepOut {
