@@ -218,20 +218,30 @@ void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
 }
 
 void Stage::keep_out_and_record() {
+  std::vector<LimbOffsets> before;
+  before.reserve(actors_.size());
+  for (const Actor& actor : actors_) before.push_back(actor.kept_out);
+  constexpr int kRounds = 2;  // who was first has not seen where the others go
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < actors_.size(); ++i) keep_out(actors_[i], before[i]);
+  }
   for (Actor& actor : actors_) {
-    std::vector<BodyCapsules> near;
-    for (const Actor& other : actors_) {
-      const float apart =
-          glm::distance(actor.motion.unhindered.hips, other.motion.playback.shown().hips);
-      if (&other != &actor && apart < kArmsReach * actor.body.scale)
-        near.push_back(other.swept.after);
-    }
-    amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
-                          actor.kept_out));
     set_feet_aside(actor);
     actor.track.frames.push_back(actor.motion.playback.shown());
     actor.track.contacts.push_back(actor.motion.playback.held());
   }
+}
+
+void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
+  std::vector<BodyCapsules> near;
+  for (const Actor& other : actors_) {
+    const float apart =
+        glm::distance(actor.motion.unhindered.hips, other.motion.playback.shown().hips);
+    if (&other != &actor && apart < kArmsReach * actor.body.scale)
+      near.push_back(other.swept.after);
+  }
+  amend(actor,
+        kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near, before));
 }
 
 // A foot that comes down where another body is stands beside it, and does not slide into it once it

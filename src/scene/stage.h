@@ -110,6 +110,8 @@ class Stage {
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
+  // From the offsets of the tick `before` on, out of the others as they are by now.
+  void keep_out(Actor& actor, const LimbOffsets& before) const;
   static void set_feet_aside(Actor& actor);
   Pose clip_pose(const Actor& actor, Tick tick) const;
 
