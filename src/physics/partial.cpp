@@ -20,22 +20,21 @@ constexpr float kStraight = .95f;    // of a leg's length: no straighter does a 
 constexpr float kShortest = .4f;     // of a clip's steps
 constexpr float kSameStance = .05f;  // m: feet that stand so near to where they stood
 
-// Head, face and chest about the hips, m.
-std::array<Vec3, 3> upper(const Skeleton& skeleton, const Pose& pose) {
+// Head, face, chest and hips, m.
+std::array<Vec3, 4> upper(const Skeleton& skeleton, const Pose& pose) {
   const WorldPose world = world_pose(skeleton, pose);
-  const Vec3 head = world.position[index(Joint::head)] - world.position[0];
+  const Vec3 head = world.position[index(Joint::head)];
   return {head, head + world.rotation[index(Joint::head)] * (kFace * kForward),
-          world.position[index(Joint::upper_chest)] - world.position[0]};
+          world.position[index(Joint::upper_chest)], world.position[0]};
 }
 
 // Head, face, chest, hips and feet, m.
 std::array<Vec3, 6> whole(const Skeleton& skeleton, const Pose& pose) {
-  const auto [head, face, chest] = upper(skeleton, pose);
+  const auto [head, face, chest, hips] = upper(skeleton, pose);
   const WorldPose world = world_pose(skeleton, pose);
-  const Vec3 hips = world.position[0];
-  return {head + hips,
-          face + hips,
-          chest + hips,
+  return {head,
+          face,
+          chest,
           hips,
           world.position[index(Joint::left_foot)],
           world.position[index(Joint::right_foot)]};
@@ -183,8 +182,8 @@ Tick free_again(std::span<const float> left, float share) {
 
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip) {
   if (way_of_clip <= 0) return 0;
-  const auto& [head, chest, hips] = outcome.moved;
-  const float moved = std::max(glm::distance(head, hips), glm::distance(chest, hips));
+  float moved = 0;
+  for (const Vec3& way : outcome.moved) moved = std::max(moved, glm::length(way));
   return std::min(1.0f, moved / way_of_clip);
 }
 

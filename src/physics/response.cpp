@@ -29,11 +29,18 @@ std::array<Vec3, 3> moved(const Skeleton& skeleton, const Clip& clip) {
   return out;
 }
 
-// How differently head and chest move against the hips (how the body bends), m, at most
-// kMostUnlike.
-float unlike(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
-  float sum = 0;
-  for (std::size_t i = 0; i < 2; ++i) sum += glm::distance(a[i] - a[2], b[i] - b[2]);
+// How differently head, chest and hips move, m, at most kMostUnlike: a response may be shown in
+// part, so what counts is the share of the clip that comes nearest.
+float unlike(const std::array<Vec3, 3>& simulated, const std::array<Vec3, 3>& clip) {
+  float along = 0, whole = 0, sum = 0;
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    along += glm::dot(simulated[i], clip[i]);
+    whole += glm::dot(clip[i], clip[i]);
+  }
+  const float share = whole > 0 ? std::clamp(along / whole, 0.0f, 1.0f) : 0.0f;
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    sum += glm::distance(simulated[i], share * clip[i]);
+  }
   return std::min(sum, kMostUnlike);
 }
 

@@ -87,8 +87,8 @@ TEST_F(Partial, ASwayIsWhatTheClipLeavesOfTheWay) {
   const Absorbed bends = absorbed(body, hit.input, {}, fighting, clip);
   for (Pose& pose : clip) pose.hips.z -= .1f;
   const Absorbed goes = absorbed(body, hit.input, {}, fighting, clip);
-  EXPECT_FLOAT_EQ(goes.share, bends.share);
-  EXPECT_NEAR(goes.sway.far.z, bends.sway.far.z + .1f * bends.share, 1e-4f);
+  EXPECT_LT(goes.share, bends.share);  // the clip goes farther
+  EXPECT_NEAR(goes.sway.far.z, bends.sway.far.z + .1f * goes.share, 1e-4f);
 }
 
 TEST_F(Partial, WhoSwaysKeepsItsFeetAndNoStraighterLegs) {
@@ -108,16 +108,16 @@ TEST_F(Partial, WhoSwaysKeepsItsFeetAndNoStraighterLegs) {
   }
 }
 
-// By the impulse step alone, for the tree: as far as the head goes against the hips.
+// By the impulse step alone, for the tree: as far as head, chest or hips go.
 TEST_F(Partial, AForeseenShareIsTheWayOfTheBodyInTheWayOfTheClip) {
   ImpactOutcome outcome;
   EXPECT_EQ(share_foreseen(outcome, .1f), 0);
   EXPECT_EQ(share_foreseen(outcome, 0), 0);
   outcome.moved = {Vec3{0, 0, -.05f}, Vec3{0, 0, -.02f}, Vec3{0, 0, -.01f}};
-  EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);
+  EXPECT_NEAR(share_foreseen(outcome, .1f), .5f, 1e-5f);
   EXPECT_EQ(share_foreseen(outcome, .01f), 1);  // never more than the clip
-  for (Vec3& one : outcome.moved) one += Vec3{.3f, 0, 0};
-  EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);  // who is shoved as a whole does not bend
+  outcome.moved = {Vec3{0, 0, -.01f}, Vec3{0, 0, -.03f}, Vec3{0, 0, -.04f}};  // a blow to the belly
+  EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);
 }
 
 // Recovery feet are placed by dv / w0.

@@ -68,6 +68,37 @@ TEST_F(ResponseChoice, OfLikeResponsesTheOneThatBendsAsTheBodyDoesIsTaken) {
   EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "bent_fore");
 }
 
+// A clip may be shown in part: what counts is which way it goes, the hips with the rest.
+TEST_F(ResponseChoice, OfLikeResponsesTheOneThatGoesTheSameWayIsTaken) {
+  const auto chosen_of_two = [&](synthetic::Key first, synthetic::Key second,
+                                 const std::array<Vec3, 3>& moved) {
+    synthetic::Builder builder;
+    synthetic::Key idle, end;
+    idle.tick = 36;
+    end.tick = 50;
+    first.tick = second.tick = 20;
+    builder.add("idle", Kind::idle, {synthetic::Key{}, idle});
+    const Response tag{ResponseKind::absorb, 0, kPi};
+    builder.add("first", Kind::response, {synthetic::Key{}, first, end}).response = tag;
+    builder.add("second", Kind::response, {synthetic::Key{}, second, end}).response = tag;
+    const MotionLibrary two("two", builder.take());
+    ImpactOutcome outcome;
+    outcome.direction = kPi;
+    outcome.moved = moved;
+    return two.action(choose_response(two, body, outcome, 0)).name;
+  };
+  synthetic::Key nods, thrown_back, leans, goes;
+  nods.lean = .05f;
+  thrown_back.lean = -.4f;
+  leans.lean = -.05f;
+  goes.root.z = -.3f;
+  EXPECT_EQ(chosen_of_two(nods, thrown_back, {Vec3{0, 0, -.03f}, Vec3{0, 0, -.01f}, Vec3{}}),
+            "second");
+  EXPECT_EQ(chosen_of_two(leans, goes, {Vec3{0, 0, -.05f}, Vec3{0, 0, -.044f}, Vec3{0, 0, -.03f}}),
+            "second");
+  EXPECT_EQ(chosen_of_two(leans, goes, {Vec3{0, 0, -.03f}, Vec3{0, 0, -.01f}, Vec3{}}), "first");
+}
+
 TEST_F(ResponseChoice, OfLikeStepsThoseThatCatchTheBodyAreTaken) {
   synthetic::Builder builder;
   synthetic::Key idle;
