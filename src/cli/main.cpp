@@ -18,9 +18,14 @@ namespace ringcraft {
 
 namespace {
 
+// The largest that JSON holds exactly, as the schema of scenes says.
+constexpr std::uint64_t kMostSeed = (std::uint64_t{1} << 53) - 1;
+
 void add_common(CLI::App& command, CommonOptions& options) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
-  command.add_option("--seed", options.seed, "Seed, instead of the scene's")->type_name("N");
+  command.add_option("--seed", options.seed, "Seed, instead of the scene's")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
   command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
       ->type_name("KEY=VALUE")
       ->take_all();

@@ -14,13 +14,13 @@ class App;
 
 namespace ringcraft {
 
-// What the studies understand besides the common options; each says which it uses.
+// What the studies understand besides the common options, each some of it.
 struct StudyOptions {
   std::vector<std::string> what = {};  // SCENE, or the two motions of `clips`
   std::optional<std::string> library;  // otherwise the scene's, or kickboxing
   std::string body = "middleweight";
   std::optional<int> bouts;
-  std::optional<int> count;  // of random hits
+  std::optional<int> count;  // decisions, or random hits
   std::optional<double> duration_s;
   float distance_m = 0.95f;  // between the two motions
   double later_s = 0;        // by which the second motion begins later
