@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "motion/ik.h"
+#include "physics/penetration.h"
 #include "planner/condition.h"
 #include "scene/answer.h"
 #include "scene/keep_out.h"
@@ -221,9 +222,15 @@ void Stage::keep_out_and_record() {
   std::vector<LimbOffsets> before;
   before.reserve(actors_.size());
   for (const Actor& actor : actors_) before.push_back(actor.kept_out);
-  constexpr int kRounds = 2;  // who was first has not seen where the others go
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < actors_.size(); ++i) keep_out(actors_[i], before[i]);
+  for (std::size_t i = 0; i < actors_.size(); ++i) keep_out(actors_[i], before[i]);
+  // Who was first has not seen where the others went.
+  constexpr float kDeep = .02f;  // m
+  for (std::size_t i = 0; i < actors_.size(); ++i) {
+    const bool deep = std::any_of(actors_.begin(), actors_.end(), [&](const Actor& other) {
+      return &other != &actors_[i] &&
+             deepest_penetration(actors_[i].swept.after, other.swept.after).depth > kDeep;
+    });
+    if (deep) keep_out(actors_[i], before[i]);
   }
   for (Actor& actor : actors_) {
     set_feet_aside(actor);

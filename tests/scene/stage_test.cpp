@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "default_library.h"
 #include "launch_of.h"
+#include "physics/penetration.h"
 
 namespace ringcraft {
 namespace {
@@ -171,6 +174,30 @@ TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
     aside += glm::length(gone) > .01f ? 1 : 0;
   }
   EXPECT_GE(aside, 3);
+}
+
+// Two who strike at each other, nobody stopped by what he meets: who was kept out first gives way
+// again where the other one could not.
+TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
+  Stage stage(default_library(), {make_body({}), make_body({})});
+  stage.begin(FighterId(0), launch("jab_cross_hook", 0, {}));
+  stage.begin(FighterId(1), launch("double_jab_left", 0, {.2f, .84f, kPi}));
+  const auto capsules_of = [&](FighterId who) {
+    const BodyModel& body = stage.body(who);
+    return capsules(body, world_pose(body.skeleton, stage.shown(who)));
+  };
+  const auto is_arm = [](Part part) {
+    return part >= Part::left_forearm && part <= Part::right_hand;
+  };
+  int deep = 0;
+  for (Tick t = 0; t < 100; ++t) {
+    show(stage, t);
+    const auto found =
+        penetrations(capsules_of(FighterId(0)), capsules_of(FighterId(1)), /*least=*/.03f);
+    deep += std::any_of(found.begin(), found.end(),
+                        [&](const Penetration& one) { return is_arm(one.a) && is_arm(one.b); });
+  }
+  EXPECT_LT(deep, 3);
 }
 
 }  // namespace
