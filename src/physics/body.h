@@ -92,11 +92,8 @@ std::vector<LimitViolation> limit_violations(const BodyModel& body, const Pose& 
                                              float tolerance);
 
 // The pose with every joint brought back to at most `tolerance` (rad) beyond its range, by the
-// shortest way toward the middle of the range.
-Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance);
-
-// The same in a running motion: a shoulder that has turned over stays on the side it was on
-// `before`.
+// shortest way toward the middle of the range. A shoulder that has turned over stays on the side it
+// was on `before`.
 Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance, const Pose& before);
 
 }  // namespace ringcraft

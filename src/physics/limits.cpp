@@ -241,10 +241,6 @@ std::vector<LimitViolation> limit_violations(const BodyModel&, const Pose& pose,
   return found;
 }
 
-Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance) {
-  return within_limits(body, pose, tolerance, rest_pose(body.skeleton));
-}
-
 Pose within_limits(const BodyModel& body, const Pose& pose, float tolerance, const Pose& before) {
   LimitExcesses free;
   free.fill(tolerance);

@@ -21,7 +21,7 @@ struct Sway {
 struct Absorbed {
   // 0..1, of the response's clip: how far the blow moves the simulated body against how far the
   // clip moves one. Zero impulse has none of it, 1 where the body goes as far as the clip does.
-  // Both are the largest way of head, face and chest about the hips.
+  // Both are the largest way of head, face, chest or hips.
   float share = 0;
   Sway sway;  // as far as the blow moves the simulated hips and the share of the clip does not
 };
@@ -40,8 +40,8 @@ Pose swayed(const Skeleton& skeleton, const Pose& pose, Vec3 offset);
 // guard.
 void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose);
 
-// How far the clip moves a body, m: the largest way of head, face and chest about the hips, from
-// `rest` on. One space, one scale.
+// How far the clip moves a body, m: the largest way of head, face, chest or hips, from `rest` on.
+// One space, one scale.
 float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
 
 // How far the body has still to go from each pose of the clip to its last one, m: the largest way
@@ -65,7 +65,8 @@ Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale);
 // (stride_to_catch, physics/balance.h) against how far they go in the clip.
 float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides);
 
-// Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation.
+// Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation: by how far
+// head, chest or hips are moved the way that the body goes.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that

@@ -23,7 +23,7 @@ Standing simulate_standing(const BodyModel& body, const ImpactInput& input, floa
     balance.guide(ragdoll, frame, k);
     ragdoll.step();
     if (ragdoll.center_of_mass().y < kFallen * height) {
-      return {true, static_cast<float>(k + 1) * kRagdollStep};
+      return {true};
     }
   }
   return {};

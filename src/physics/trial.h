@@ -10,7 +10,6 @@ namespace ringcraft {
 
 struct Standing {
   bool fell = false;  // the centre of mass sank below 75 % of its height at the start
-  float fell_s = 0;   // when
 };
 
 // The body holds its balance over the feet that it stands on, without a step.
