@@ -16,7 +16,8 @@ inline constexpr std::array<Limb, 4> kArmsAndLegs = {arm(Side::left), arm(Side::
 // How far the ends of kArmsAndLegs are held off their motion, m.
 using LimbOffsets = std::array<Vec3, 4>;
 
-inline constexpr std::array<float, 4> kMostKeptOut = {0.30f, 0.30f, 0.35f, 0.35f};  // m
+// m. With 20 cm, arms stayed in whoever walked onto them.
+inline constexpr std::array<float, 4> kMostKeptOut = {0.30f, 0.30f, 0.35f, 0.35f};
 
 // One tick on from `now`: limbs come back to their motion, no faster than kComingFree, as far as
 // hands, forearms, and feet and shins that are not `held`, stay out of the `others`, each limb held

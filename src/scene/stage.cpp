@@ -223,12 +223,12 @@ void Stage::keep_out_and_record() {
   before.reserve(actors_.size());
   for (const Actor& actor : actors_) before.push_back(actor.kept_out);
   for (std::size_t i = 0; i < actors_.size(); ++i) keep_out(actors_[i], before[i]);
-  // Who was first has not seen where the others went.
-  constexpr float kDeep = .02f;  // m
-  for (std::size_t i = 0; i < actors_.size(); ++i) {
+  // Who was not last has not seen where the others went.
+  constexpr float kStillDeep = .02f;  // m
+  for (std::size_t i = 0; i + 1 < actors_.size(); ++i) {
     const bool deep = std::any_of(actors_.begin(), actors_.end(), [&](const Actor& other) {
       return &other != &actors_[i] &&
-             deepest_penetration(actors_[i].swept.after, other.swept.after).depth > kDeep;
+             deepest_penetration(actors_[i].swept.after, other.swept.after).depth > kStillDeep;
     });
     if (deep) keep_out(actors_[i], before[i]);
   }
