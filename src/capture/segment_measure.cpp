@@ -90,20 +90,18 @@ Measures measured(const Skeleton& skeleton, const Clip& capture) {
   Measures m;
   m.last = capture.length();
   m.height = skeleton.height;
-  std::vector<float> gaze, pelvis, shoulders;
+  std::vector<float> gaze, pelvis;
   for (const Pose& pose : capture.frames) {
     m.world.push_back(world_pose(skeleton, pose));
     const WorldPose& w = m.world.back();
     const auto at = [&](Joint joint) { return w.position[index(joint)]; };
     gaze.push_back(yaw_of(w.rotation[index(Joint::head)] * kForward));
     pelvis.push_back(normal_of(at(Joint::left_upper_leg) - at(Joint::right_upper_leg)));
-    shoulders.push_back(normal_of(at(Joint::left_upper_arm) - at(Joint::right_upper_arm)));
     const Vec3 trunk = at(Joint::neck) - at(Joint::hips);
     m.trunk.push_back(std::atan2(trunk.y, std::hypot(trunk.x, trunk.z)));
   }
   m.gaze = smoothed(unwrapped(std::move(gaze)), kSmoothGaze);
   m.pelvis_yaw = smoothed(unwrapped(std::move(pelvis)), kSmoothTrunk);
-  m.shoulder_yaw = smoothed(unwrapped(std::move(shoulders)), kSmoothTrunk);
   for (const Side side : kSides) {
     m.hand[index(side)] = limb_tracks(m, skeleton, arm(side));
     m.foot[index(side)] = limb_tracks(m, skeleton, leg(side));

@@ -50,12 +50,11 @@ struct Measures {
   float height = 0;      // H, m
   float usual_hips = 0;  // m: the hips' height while the fighter stands
   std::vector<WorldPose> world;
-  std::vector<float> gaze;          // rad, yaw of the head, unwrapped
-  std::vector<float> pelvis_yaw;    // rad, of the hip line's normal, unwrapped
-  std::vector<float> shoulder_yaw;  // rad, of the shoulder line's normal, unwrapped
-  std::vector<float> trunk;         // rad: elevation of the line from hips to neck
-  std::vector<float> hips_speed;    // m/s over the ground
-  std::vector<float> hips_climb;    // m/s upward
+  std::vector<float> gaze;        // rad, yaw of the head, unwrapped
+  std::vector<float> pelvis_yaw;  // rad, of the hip line's normal, unwrapped
+  std::vector<float> trunk;       // rad: elevation of the line from hips to neck
+  std::vector<float> hips_speed;  // m/s over the ground
+  std::vector<float> hips_climb;  // m/s upward
   struct LimbTracks {
     std::vector<Vec3> from_hips;   // m, hand or ankle
     std::vector<float> speed;      // m/s relative to the hips

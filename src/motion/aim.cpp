@@ -29,10 +29,6 @@ constexpr std::array<AimPoint, 15> kPoints = {{
 
 }  // namespace
 
-std::span<const AimPoint> aim_points() {
-  return kPoints;
-}
-
 const AimPoint* aim_point(std::string_view name) {
   const auto found = std::find_if(kPoints.begin(), kPoints.end(),
                                   [&](const AimPoint& point) { return point.name == name; });

@@ -14,7 +14,6 @@ struct AimPoint {
   Vec3 offset{};  // from the joint in its own axes, fraction of standing height
 };
 
-std::span<const AimPoint> aim_points();
 const AimPoint* aim_point(std::string_view name);  // null where there is none
 
 // Where it is on a body of that height, in the space of the pose, m.

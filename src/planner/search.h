@@ -114,12 +114,9 @@ struct SearchCounts {
   std::uint64_t nodes = 0;   // all of them
   std::uint64_t leaves = 0;  // terminal, or outside of the window whatever is below
   std::uint64_t forced = 0;
-  std::uint64_t cutoffs = 0;
-  std::uint64_t table_cutoffs = 0;
 
   SearchCounts& operator+=(const SearchCounts& o) {
     nodes += o.nodes, leaves += o.leaves, forced += o.forced;
-    cutoffs += o.cutoffs, table_cutoffs += o.table_cutoffs;
     return *this;
   }
 };
@@ -430,7 +427,6 @@ class Search {
       if (entry->generation == generation_ &&
           (entry->bound == Bound::exact || (entry->bound == Bound::lower && value >= beta) ||
            (entry->bound == Bound::upper && value <= alpha))) {
-        ++counts_.table_cutoffs;
         return value;
       }
     }
@@ -564,7 +560,6 @@ class Search {
   }
 
   void note_cutoff(Level& here, Actor actor, std::uint32_t key, std::size_t context) {
-    ++counts_.cutoffs;
     auto& answers = answers_[context];
     if (answers[0] != key) answers = {key, answers[0]};
     if (here.killers[0] != key) here.killers = {key, here.killers[0]};

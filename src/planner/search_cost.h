@@ -24,7 +24,6 @@ inline constexpr std::array<const char*, kCostParts> kCostPartNames = {
 
 struct SearchCost {
   std::array<double, kCostParts> seconds{};
-  std::array<std::uint64_t, kCostParts> calls{};
 };
 
 // Adds its own lifetime to a part, and takes it off the part around it; null costs nothing.
@@ -41,7 +40,6 @@ class CostSpan {
     if (cost_ == nullptr) return;
     const double took = std::chrono::duration<double>(Clock::now() - begin_).count();
     cost_->seconds[part_] += took;
-    ++cost_->calls[part_];
     if (inside_ != part_) cost_->seconds[inside_] -= took;
   }
   CostSpan(const CostSpan&) = delete;

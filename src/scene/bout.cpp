@@ -368,7 +368,6 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   ImpactOutcome outcome = impulse_step(stage_.body(target), input);
   record_.impulse_step_us.push_back(microseconds_since(begin));
   ++record_.counts.impacts;
-  record_.counts.impulse_sum_Ns += glm::length(input.blow.impulse);
   event.replay = replay_text(stage_.body(target), input, outcome, fighter(target).health);
 
   // 2. What it costs. Nobody stands without health.

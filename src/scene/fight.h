@@ -23,7 +23,6 @@ struct FightOptions {
 struct FightCounts {
   std::uint64_t impacts = 0;           // committed contacts that went through the impulse step
   std::uint64_t impulse_steps = 0;     // impulse steps in all: committed and first-time in the tree
-  double impulse_sum_Ns = 0;           // over the committed impacts
   std::uint64_t foreseen = 0;          // contacts that the tree had told of the strikes in flight
   std::uint64_t agreed_at_launch = 0;  // of them, as it told when somebody last began something
   std::uint64_t memo_hits = 0, memo_misses = 0;

@@ -156,10 +156,7 @@ void measure_aim(const Pose& guard, float ratio, const Strike& strike, const Mot
   out.aim_best_m = 1e9;
   for (float distance = kNear; distance < kFar; distance += 0.01f) {
     const double error = at(distance);
-    if (error < out.aim_best_m) {
-      out.aim_best_m = error;
-      out.aim_at = distance;
-    }
+    out.aim_best_m = std::min(out.aim_best_m, error);
     if (error > kAimed) continue;
     if (out.aim_to == 0) out.aim_from = distance;
     out.aim_to = distance;

@@ -36,8 +36,8 @@ struct StrikeMeasures {
   // m: how far it passes from what it aims at, at the best distance and at the worst of its reach;
   // negative where it aims at nothing, or says no reach.
   double aim_best_m = -1, aim_worst_m = -1;
-  double aim_at = 0;                // m between the two roots at the launch: the best distance
-  double aim_from = 0, aim_to = 0;  // m: distances from which it passes within 3 cm
+  // m between the two roots at the launch from which it passes within 3 cm.
+  double aim_from = 0, aim_to = 0;
 };
 
 // Every strike against a body `ratio` times as tall.
