@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 Result<std::string> read_file(const fs::path& path) {
   std::error_code failed;
   if (!fs::exists(path, failed)) {
+    if (failed) return input_error(path.string(), "", failed.message(), "check its permissions");
     return input_error(path.string(), "", "no such file", "check the path");
   }
   if (!fs::is_regular_file(path, failed)) {

@@ -12,8 +12,12 @@ namespace ringcraft {
 
 int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
                       const CommonOptions& options) {
-  const auto scene =
-      scene_with(scene_name, options, {fmt::format("duration_s={}", asked.duration_s)});
+  constexpr const char* kUsual = "duration_s=10";
+  CommonOptions with = options;
+  with.sets.insert(with.sets.begin(), kUsual);
+  std::vector<std::string> asked_for;
+  if (asked.duration_s) asked_for.push_back(fmt::format("duration_s={}", *asked.duration_s));
+  const auto scene = scene_with(scene_name, with, asked_for);
   if (!scene) return fail(scene.error());
   const std::filesystem::path folder = options.out.empty() ? "out/bench" : options.out;
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());

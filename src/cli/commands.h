@@ -24,6 +24,9 @@ struct CommonOptions {
   bool summary_to_stderr = false;  // stdout is for something else
 };
 
+// What of a scene a command lets its user set anew; the others refuse the options.
+enum class Overrides : std::uint8_t { none, seed, seed_and_values };
+
 struct FightCommandOptions {
   std::vector<std::string> exports = {};  // bvh, vrma
   std::string profile;                    // whose skeleton the BVH has; empty: VRM's names
@@ -70,7 +73,7 @@ struct BatchOptions {
 };
 
 struct BenchOptions {
-  double duration_s = 10;  // of the fight
+  std::optional<double> duration_s;  // of the fight; none: 10 s, or as --set says
   int rounds = 1;
 };
 

@@ -134,7 +134,8 @@ Result<HitQuery> query_from(const HitOptions& hit) {
   if (!attacker) return tl::unexpected(attacker.error());
   query.attacker = *attacker;
   if (hit.distance && !(*hit.distance >= 0 && *hit.distance <= 10)) {
-    return usage_error("", "--distance", fmt::format("{} m", *hit.distance), "give 0 to 10 m");
+    return usage_error("", "--distance", fmt::format("{} m is outside of 0 to 10 m", *hit.distance),
+                       "give how far apart the two stand");
   }
   query.distance = hit.distance;
   return query;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
@@ -21,14 +22,18 @@ namespace {
 // The largest that JSON holds exactly, as the schema of scenes says.
 constexpr std::uint64_t kMostSeed = (std::uint64_t{1} << 53) - 1;
 
-void add_common(CLI::App& command, CommonOptions& options) {
+void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
-  command.add_option("--seed", options.seed, "Seed, instead of the scene's")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
-  command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->take_all();
+  if (overrides != Overrides::none) {
+    command.add_option("--seed", options.seed, "Seed, instead of the scene's")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
+  }
+  if (overrides == Overrides::seed_and_values) {
+    command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->take_all();
+  }
   command.add_option("--threads", options.threads, "Threads; never changes the result")
       ->check(CLI::Range(1, 256));
   command.add_flag("--json", options.json, "Print the result as JSON on stdout");
@@ -47,8 +52,13 @@ int run(int argc, char** argv) {
   CLI::App app("Fights in which hits are physical.", "ringcraft");
   app.set_version_flag("--version", RINGCRAFT_VERSION);
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("ringcraft: {}; `ringcraft --help` says what there is\n", error.what());
+  app.failure_message([](const CLI::App* whole, const CLI::Error& error) {
+    std::string named = whole->get_name();
+    for (const CLI::App* at = whole; !at->get_subcommands().empty();) {
+      at = at->get_subcommands().front();
+      named += " " + at->get_name();
+    }
+    return fmt::format("ringcraft: {}; `{} --help` says what there is\n", error.what(), named);
   });
   CommonOptions options;
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
@@ -70,7 +80,7 @@ int run(int argc, char** argv) {
       ->needs("--export");
   fight->add_flag("--root-motion", fight_options.root_motion,
                   "fight.glb moves each fighter's own node over the ground");
-  add_common(*fight, options);
+  add_common(*fight, options, Overrides::seed_and_values);
   fight->callback([&] { code = run_fight(scene, fight_options, options); });
 
   HitOptions hit_options;
@@ -94,7 +104,7 @@ int run(int argc, char** argv) {
   hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(within(0.0, 1.0));
   hit->add_option("--body", hit_options.body, "A file of assets/bodies");
   hit->add_option("--library", hit_options.library, "Motion library");
-  add_common(*hit, options);
+  add_common(*hit, options, Overrides::none);
   hit->callback([&] { code = run_hit(hit_options, options); });
 
   TreeOptions tree_options;
@@ -106,7 +116,7 @@ int run(int argc, char** argv) {
   tree->add_option("--nodes", tree_options.nodes, "Nodes to write out at most")
       ->type_name("N")
       ->check(CLI::Range(1, 20000));
-  add_common(*tree, options);
+  add_common(*tree, options, Overrides::seed_and_values);
   tree->callback([&] { code = run_tree(scene, tree_options, options); });
 
   SparringOptions sparring_options;
@@ -121,7 +131,7 @@ int run(int argc, char** argv) {
                    "Two people of one capture space, instead of a library")
       ->type_name("A B")
       ->expected(2);
-  add_common(*sparring, options);
+  add_common(*sparring, options, Overrides::none);
   sparring->callback([&] { code = run_sparring(sparring_options, options); });
 
   add_study_command(app, add_common, options, code);
@@ -133,21 +143,21 @@ int run(int argc, char** argv) {
   batch->add_option("--count", batch_options.count, "Bouts; the first has the scene's seed")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
-  add_common(*batch, options);
+  add_common(*batch, options, Overrides::seed_and_values);
   batch->callback([&] { code = run_batch_command(scene, batch_options, options); });
 
   std::vector<std::string> folders;
   CLI::App* merge =
       app.add_subcommand("merge", "Put the bouts of several batches together, as one batch");
   merge->add_option("DIR", folders, "Folders that `batch` wrote")->required();
-  add_common(*merge, options);
+  add_common(*merge, options, Overrides::none);
   merge->callback([&] { code = run_merge(folders, options); });
 
   std::string events_file;
   CLI::App* replay = app.add_subcommand(
       "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");
   replay->add_option("EVENTS", events_file, "An events.jsonl")->required();
-  add_common(*replay, options);
+  add_common(*replay, options, Overrides::none);
   replay->callback([&] { code = run_replay(events_file, options); });
 
   std::string library_name = "kickboxing";
@@ -172,7 +182,7 @@ int run(int argc, char** argv) {
                  "No blends between a folder's repetitions")
       ->excludes(interpolated);
   build->add_flag("--not-connected", build_options.not_connected, "Without the motion graph");
-  add_common(*build, options);
+  add_common(*build, options, Overrides::none);
   build->callback([&] { code = run_library_build(build_options, options); });
   InterpolateOptions interpolate_options;
   CLI::App* interpolate = library->add_subcommand(
@@ -181,19 +191,19 @@ int run(int argc, char** argv) {
                           "Library file, manifest, folder, or the name of one in assets");
   interpolate->add_option("--wanted", interpolate_options.wanted, "Wanted outcomes for each family")
       ->check(CLI::Range(1, 10000));
-  add_common(*interpolate, options);
+  add_common(*interpolate, options, Overrides::seed);
   interpolate->callback(
       [&] { code = run_library_interpolate(library_name, interpolate_options, options); });
   CLI::App* inspect = library->add_subcommand("inspect", "Every action as a filmstrip and a table");
   inspect->add_option("LIBRARY", library_name,
                       "Library file, manifest, folder, or the name of one in assets");
-  add_common(*inspect, options);
+  add_common(*inspect, options, Overrides::none);
   inspect->callback([&] { code = run_library_inspect(library_name, options); });
   CheckHeights check_heights;
   CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
   check->add_option("LIBRARY", library_name,
                     "Library file, manifest, folder, or the name of one in assets");
-  add_common(*check, options);
+  add_common(*check, options, Overrides::none);
   check->add_option("--height", check_heights.own, "Height of the fighter, m")
       ->check(within(1.2, 2.3));
   check->add_option("--opponent", check_heights.opponent, "Height of the opponent, m")
@@ -215,7 +225,7 @@ int run(int argc, char** argv) {
   bench->add_option("--rounds", bench_options.rounds, "How often the fight is fought")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  add_common(*bench, options);
+  add_common(*bench, options, Overrides::seed_and_values);
   bench->callback([&] { code = run_bench_command(scene, bench_options, options); });
 
   ServeOptions serve_options;
@@ -225,7 +235,7 @@ int run(int argc, char** argv) {
   serve->add_option("--port", serve_options.port, "Port of 127.0.0.1; 0 takes any that is free")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
-  add_common(*serve, options);
+  add_common(*serve, options, Overrides::none);
   serve->callback([&] { code = run_serve(serve_options, options); });
 
   ViewOptions view_options;
@@ -233,7 +243,7 @@ int run(int argc, char** argv) {
       app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
   view->add_option("FIGHT", view_options.what, "Folder of a result, page, or scene");
   view->add_flag("--print", view_options.print, "Print the address, open nothing");
-  add_common(*view, options);
+  add_common(*view, options, Overrides::seed_and_values);
   view->callback([&] { code = run_view(view_options, options); });
 
   std::string shell;
@@ -278,6 +288,9 @@ int main(int argc, char** argv) {
   try {
     const int code = ringcraft::run(argc, argv);
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : nothing_delivered();
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "ringcraft: {}; check the path and its permissions\n", error.what());
+    return static_cast<int>(ringcraft::ErrorKind::input);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return nothing_delivered();
     fmt::print(stderr, "ringcraft: simulation failed: {}; please report this\n", error.what());

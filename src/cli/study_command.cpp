@@ -24,15 +24,14 @@ namespace ringcraft {
 namespace {
 
 // What a study understands besides the common options, one bit each.
-enum Understands : std::uint32_t {
-  kBouts = 1u << 0,
-  kDuration = 1u << 1,
-  kCount = 1u << 2,
-  kLibrary = 1u << 3,
-  kSlow = 1u << 4,
-  kOnly = 1u << 5,
-  kPlacement = 1u << 6,  // of two motions, and what is a fault
-  kPairings = 1u << 7,   // and the leaf value and the ring
+enum StudyTakes : std::uint32_t {
+  kTakesBouts = 1u << 0,
+  kTakesDuration = 1u << 1,
+  kTakesCount = 1u << 2,
+  kTakesSlow = 1u << 4,
+  kTakesOnly = 1u << 5,
+  kTakesPlacement = 1u << 6,  // of two motions, and what is a fault
+  kTakesPairings = 1u << 7,   // and the leaf value and the ring
 };
 
 struct StudyEntry {
@@ -41,25 +40,29 @@ struct StudyEntry {
   const char* takes;        // SCENE, A B or nothing
   std::size_t least, most;  // arguments
   std::uint32_t understands;
+  Overrides overrides;
   int (*run)(const StudyOptions&, const CommonOptions&);
 };
 
 // One line a study.
 constexpr StudyEntry kStudies[] = {
     {"penetration", "Pruning by penetration: threshold and check rate", "[SCENE]", 0, 1,
-     kDuration | kLibrary | kSlow, run_penetration_study},
+     kTakesDuration | kTakesSlow, Overrides::seed_and_values, run_penetration_study},
     {"search", "A decision's time and its parts; leaves visited, device by device", "[SCENE]", 0, 1,
-     kDuration | kLibrary | kSlow | kCount | kBouts, run_search_study},
+     kTakesDuration | kTakesSlow | kTakesCount | kTakesBouts, Overrides::seed_and_values,
+     run_search_study},
     {"cost", "A decision's nodes and time by horizon and by size of the library", "[SCENE]", 0, 1,
-     kDuration | kLibrary | kSlow | kCount, run_cost_study},
+     kTakesDuration | kTakesSlow | kTakesCount, Overrides::seed_and_values, run_cost_study},
     {"clips", "The checker alone on two motions; exit 1 above --limit", "A B", 2, 2,
-     kLibrary | kPlacement, run_clips_study},
+     kTakesPlacement, Overrides::none, run_clips_study},
     {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0,
-     kLibrary | kCount | kOnly, run_hits_study},
+     kTakesCount | kTakesOnly, Overrides::seed, run_hits_study},
     {"horizon", "Horizons against each other: wins, hits, defenses, steps", "", 0, 0,
-     kBouts | kDuration | kLibrary | kSlow | kPairings, run_horizon_study},
+     kTakesBouts | kTakesDuration | kTakesSlow | kTakesPairings, Overrides::seed_and_values,
+     run_horizon_study},
     {"styles", "Styles against each other: distance, hits, wins", "", 0, 0,
-     kBouts | kDuration | kLibrary | kSlow | kPairings, run_styles_study},
+     kTakesBouts | kTakesDuration | kTakesSlow | kTakesPairings, Overrides::seed_and_values,
+     run_styles_study},
 };
 
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
@@ -285,31 +288,30 @@ int run_styles_study(const StudyOptions& study, const CommonOptions& options) {
 namespace {
 
 void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) {
-  const auto takes = [&](Understands what) { return (understands & what) != 0; };
-  if (takes(kBouts)) {
+  const auto understood = [&](StudyTakes what) { return (understands & what) != 0; };
+  if (understood(kTakesBouts)) {
     one.add_option("--bouts", study.bouts, "Bouts: of each pairing, or to warm up")
         ->check(CLI::Range(1, 10000));
   }
-  if (takes(kDuration)) {
+  if (understood(kTakesDuration)) {
     one.add_option("--duration", study.duration_s, "Length of a bout, s")
         ->check(within(0.5, 3600.0));
   }
-  if (takes(kCount)) {
+  if (understood(kTakesCount)) {
     one.add_option("--count", study.count, "Decisions, or random hits of each question")
         ->check(CLI::Range(1, 1'000'000));
   }
-  if (takes(kLibrary)) one.add_option("--library", study.library, "Motion library");
-  if (takes(kSlow)) {
+  if (understood(kTakesSlow)) {
     one.add_option("--slow", study.slow, "Library in the paper's manner, slower by this factor")
         ->check(within(1.0, 5.0));
   }
-  if (takes(kOnly)) {
+  if (understood(kTakesOnly)) {
     one.add_option("--only", study.only, "Questions: decision,robustness")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(CLI::IsMember(hit_questions()));
   }
-  if (takes(kPlacement)) {
+  if (understood(kTakesPlacement)) {
     one.add_option("--body", study.body, "A file of assets/bodies");
     one.add_option("--distance", study.distance_m, "m between the roots")->check(within(0.0, 20.0));
     one.add_option("--later", study.later_s, "s by which the second motion begins later")
@@ -318,7 +320,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
         ->check(within(0.0, 1.0));
     one.add_flag("--all-contacts", study.all_contacts, "Count what a strike is meant to touch");
   }
-  if (takes(kPairings)) {
+  if (understood(kTakesPairings)) {
     one.add_option("--pairings", study.pairings, "3v1,2v1 (horizons, s) or outboxer:infighter")
         ->type_name("A,B")
         ->delimiter(',')
@@ -331,7 +333,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
 
 }  // namespace
 
-void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),
+void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&, Overrides),
                        CommonOptions& options, int& code) {
   CLI::App* command =
       app.add_subcommand("study", "One question over many values: table, CSV, JSON and a picture");
@@ -345,8 +347,9 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
           ->expected(static_cast<int>(entry.least), static_cast<int>(entry.most))
           ->required(entry.least > 0);
     }
+    one->add_option("--library", study->library, "Motion library");
     add_options(*one, entry.understands, *study);
-    add_common(*one, options);
+    add_common(*one, options, entry.overrides);
     one->callback([&code, &options, study, run = entry.run] { code = run(*study, options); });
   }
 }

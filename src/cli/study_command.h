@@ -46,7 +46,7 @@ int run_styles_study(const StudyOptions& study, const CommonOptions& options);
 int finish_study(const Study& study, int code, const CommonOptions& options);
 
 // Adds `study` to the command; `code` receives the exit code.
-void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&),
+void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&, Overrides),
                        CommonOptions& options, int& code);
 
 }  // namespace ringcraft

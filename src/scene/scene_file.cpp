@@ -44,6 +44,7 @@ std::vector<std::string> names_in(const std::string& folder) {
 std::string remedy_for_name(const std::string& name, const std::string& folder) {
   if (!is_bare(name)) return "check the path";
   const auto known = names_in(folder);
+  if (known.empty()) return "set RINGCRAFT_ASSETS to ringcraft's folder assets";
   const std::string near = nearest_word(name, known);
   const std::string all = fmt::format("{}", fmt::join(known, ", "));
   return near.empty() ? "known names: " + all : "did you mean '" + near + "'? Known names: " + all;
@@ -53,7 +54,9 @@ std::string remedy_for_name(const std::string& name, const std::string& folder) 
 Result<fs::path> existing_file(const std::string& name, const std::string& folder,
                                const char* what) {
   const fs::path path = file_named(name, folder, "");
-  if (fs::exists(path)) return path;
+  std::error_code failed;
+  if (fs::exists(path, failed)) return path;
+  if (failed) return input_error(name, "", failed.message(), "check the path and its permissions");
   return input_error(name, "", std::string("no such ") + what, remedy_for_name(name, folder));
 }
 
@@ -101,14 +104,26 @@ class Reader {
                        std::move(remedy));
   }
 
+  // A path in the file is relative to the file, one of the command line to where that is given.
+  fs::path base_of(const std::string& pointer) const {
+    return document_.place(pointer) == "--set" ? fs::path() : document_.path.parent_path();
+  }
+
+  Result<void> must_exist(const std::string& pointer, const fs::path& path,
+                          std::string remedy) const {
+    std::error_code failed;
+    if (fs::exists(path, failed)) return {};
+    const std::string what = failed ? failed.message() : "no such file";
+    return input_error(document_.path.string(), document_.place(pointer),
+                       what + ": " + path.lexically_normal().string(), std::move(remedy));
+  }
+
   // The file that the value at `pointer` names; it must be there, and is part of the settings.
   Result<fs::path> named_file(const std::string& pointer, const std::string& name,
                               const std::string& folder) {
-    const fs::path path = file_named(name, folder, document_.path.parent_path());
-    if (!fs::exists(path)) {
-      return input_error(document_.path.string(), document_.place(pointer),
-                         "no such file: " + path.lexically_normal().string(),
-                         remedy_for_name(name, folder));
+    const fs::path path = file_named(name, folder, base_of(pointer));
+    if (auto done = must_exist(pointer, path, remedy_for_name(name, folder)); !done) {
+      return tl::unexpected(done.error());
     }
     const auto text = read_file(path);
     if (!text) return tl::unexpected(text.error());
@@ -118,12 +133,14 @@ class Reader {
 
   Result<void> read_library() {
     const auto name = value_["library"].get<std::string>();
-    // A path in the file is relative to the file, one of the command line to where that is given.
     const std::string place = document_.place("/library");
     const bool bare = name.find('/') == std::string::npos && fs::path(name).extension().empty();
-    const fs::path relative_to = place == "--set" ? fs::path() : document_.path.parent_path();
-    scene_.library = bare ? assets_folder() / name : relative_to / name;
-    if (fs::is_directory(scene_.library) || fs::is_regular_file(scene_.library)) return {};
+    std::error_code failed;
+    const bool built = place == "--set" && fs::is_regular_file(name, failed);
+    scene_.library = bare && !built ? assets_folder() / name : base_of("/library") / name;
+    if (fs::is_directory(scene_.library, failed) || fs::is_regular_file(scene_.library, failed)) {
+      return {};
+    }
     return input_error(document_.path.string(), place,
                        "no such folder or library file: " + scene_.library.string(),
                        "name a motion library's folder under assets, as \"kickboxing\", or a file "
@@ -172,9 +189,13 @@ class Reader {
     fighter.placement.x = given["position"][0].get<float>();
     fighter.placement.z = given["position"][1].get<float>();
     fighter.health = static_cast<std::int32_t>(std::lround(given.value("health", 100.0) * 1000.0));
-    if (given.contains("character"))
+    if (given.contains("character")) {
       fighter.character =
-          document_.path.parent_path() / fs::path(given["character"].get<std::string>());
+          base_of(at + "/character") / fs::path(given["character"].get<std::string>());
+      if (auto done = must_exist(at + "/character", fighter.character, "check the path"); !done) {
+        return tl::unexpected(done.error());
+      }
+    }
     if (given.contains("shorts")) fighter.shorts = colour_of(given["shorts"]);
     if (given.contains("gloves")) fighter.gloves = colour_of(given["gloves"]);
     if (given.contains("skin")) fighter.skin = colour_of(given["skin"]);
