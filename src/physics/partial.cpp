@@ -182,9 +182,8 @@ Tick free_again(std::span<const float> left, float share) {
 
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip) {
   if (way_of_clip <= 0) return 0;
-  const Vec3 way = yaw_rotation(outcome.direction) * kForward;
-  float moved = 0;  // the way of the blow: where its own motion takes a body is no answer
-  for (const Vec3& one : outcome.moved) moved = std::max(moved, glm::dot(one, way));
+  float moved = 0;
+  for (const Vec3& way : outcome.moved) moved = std::max(moved, glm::length(way));
   return std::min(1.0f, moved / way_of_clip);
 }
 

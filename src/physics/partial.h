@@ -65,8 +65,8 @@ Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale);
 // (stride_to_catch, physics/balance.h) against how far they go in the clip.
 float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides);
 
-// Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation: by how far
-// head, chest or hips are moved the way that the body goes.
+// Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation; the
+// body's own way off its action counts as well.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that

@@ -11,7 +11,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kMostUnlike = .3f;     // m, of head, chest and hips together
+constexpr float kMostUnlike = .2f;     // m
 constexpr float kWrongZone = 3.0f;     // steps: a kick to the thigh does not throw the head back
 constexpr float kMotionWeight = 3.0f;  // steps per metre that two motions differ by
 constexpr float kStep = .4f;  // m that a clip's steps are too short or too long count as one
@@ -29,15 +29,15 @@ std::array<Vec3, 3> moved(const Skeleton& skeleton, const Clip& clip) {
   return out;
 }
 
-// How differently head, chest and hips move, m, at most kMostUnlike: of a clip that may be shown in
-// part, from `least` of it on, what counts is the share that comes nearest.
-float unlike(const std::array<Vec3, 3>& simulated, const std::array<Vec3, 3>& clip, float least) {
+// How differently head, chest and hips move, m, at most kMostUnlike: a response may be shown in
+// part, so what counts is the share of the clip that comes nearest.
+float unlike(const std::array<Vec3, 3>& simulated, const std::array<Vec3, 3>& clip) {
   float along = 0, whole = 0, sum = 0;
   for (std::size_t i = 0; i < clip.size(); ++i) {
     along += glm::dot(simulated[i], clip[i]);
     whole += glm::dot(clip[i], clip[i]);
   }
-  const float share = whole > 0 ? std::clamp(along / whole, least, 1.0f) : least;
+  const float share = whole > 0 ? std::clamp(along / whole, 0.0f, 1.0f) : 0.0f;
   for (std::size_t i = 0; i < clip.size(); ++i) {
     sum += glm::distance(simulated[i], share * clip[i]);
   }
@@ -130,23 +130,18 @@ ActionId choose_response(const MotionLibrary& library, const BodyModel& body,
   const bool steps = outcome.response == ResponseKind::recovery_steps;
   const float stride = stride_to_catch(body, outcome.margin) / body.scale;
   ActionId best;
-  Misfit best_misfit;
+  Misfit least;
   for (const ActionId id : library.responses()) {
     const Action& action = library.action(id);
     if (!action.response || action.stance != stance) continue;
     Misfit m = misfit(*action.response, outcome, direction);
-    float least = outcome.response == ResponseKind::absorb ? 0.0f : 1.0f;  // of the clip
+    if (moves) m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip));
     if (steps) {
-      const Strides strides = strides_of(library.skeleton(), action.clip, 1);
-      m.rest += out_of_reach(strides, stride) / kStep;
-      if (strides.longest > 0) least = strides.shortest / strides.longest;
+      m.rest += out_of_reach(strides_of(library.skeleton(), action.clip, 1), stride) / kStep;
     }
-    if (moves) {
-      m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip), least);
-    }
-    if (!best.valid() || m.better_than(best_misfit)) {  // equal: the lower index stays
+    if (!best.valid() || m.better_than(least)) {  // equal: the lower index stays
       best = id;
-      best_misfit = m;
+      least = m;
     }
   }
   return best;
