@@ -127,8 +127,7 @@ Result<SkeletonProfile> profile_named(const std::string& name) {
     if (profile.name == name) return profile;
     known += (known.empty() ? "" : ", ") + profile.name;
   }
-  return usage_error("--export-profile", "",
-                     fmt::format("no skeleton profile is called '{}'", name),
+  return usage_error("", "", fmt::format("no skeleton profile is called '{}'", name),
                      "known names: " + known);
 }
 

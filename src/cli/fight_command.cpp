@@ -42,7 +42,10 @@ Result<std::vector<std::shared_ptr<const Character>>> characters_of(const SceneF
 
 Result<ForeignSkeleton> export_skeleton(const std::string& profile) {
   if (profile.empty()) return vrm_skeleton();
-  return profile_named(profile).map(foreign_skeleton);
+  return profile_named(profile).map(foreign_skeleton).map_error([](Error error) {
+    if (error.file.empty()) error.file = "--export-profile";
+    return error;
+  });
 }
 
 }  // namespace

@@ -180,8 +180,8 @@ TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
 // again where the other one could not.
 TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
   Stage stage(default_library(), {make_body({}), make_body({})});
-  stage.begin(FighterId(0), launch("jab_cross_hook", 0, {}));
-  stage.begin(FighterId(1), launch("double_jab_left", 0, {.2f, .84f, kPi}));
+  stage.begin(FighterId(0), launch("jab_jab_cross", 0, {}));
+  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
   const auto capsules_of = [&](FighterId who) {
     const BodyModel& body = stage.body(who);
     return capsules(body, world_pose(body.skeleton, stage.shown(who)));
@@ -191,7 +191,7 @@ TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
            part == Part::right_hand;
   };
   int touches = 0, deep = 0;
-  for (Tick t = 0; t < 100; ++t) {
+  for (Tick t = 0; t < 90; ++t) {
     show(stage, t);
     float deepest = 0;
     for (const Penetration& one :
@@ -202,7 +202,7 @@ TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
     deep += deepest > .03f ? 1 : 0;
   }
   EXPECT_GT(touches, 5);
-  EXPECT_LT(deep, 3);  // 4 where each is kept out once
+  EXPECT_LT(deep, 4);  // 11 where each is kept out once
 }
 
 }  // namespace
