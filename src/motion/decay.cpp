@@ -126,11 +126,11 @@ BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
           {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)}};
 }
 
-Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
-                 const Pose& now, const Pose& after, float seconds, float lever) {
-  const std::size_t j = index(limb.root);
+Decay root_decay(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& before,
+                 const Pose& shown, const Pose& now, const Pose& after, float seconds,
+                 float lever) {
   const BallJoint joint = ball_joint(limb);
-  const auto turns = [&](const Pose& pose) { return ball_turns(joint, side, pose.rotation[j]); };
+  const auto turns = [&](const Pose& pose) { return root_turns(skeleton, side, limb, pose); };
   constexpr float kFastest = 20 * kTickSeconds;  // rad a tick: no joint turns faster
   const auto moved = [&](const Pose& a, const Pose& b) {
     const Vec3 change = turns(b) - turns(a);

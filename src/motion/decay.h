@@ -47,8 +47,8 @@ struct BodyTurn {
 };
 BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds, bool simulated);
 
-// The same of a limb's root, as its swing and turn (joint_turns.h).
-Decay root_decay(Side side, const Limb& limb, const Pose& before, const Pose& shown,
-                 const Pose& now, const Pose& after, float seconds, float lever);
+// The same of a limb's root, as `root_turns` (joint_turns.h).
+Decay root_decay(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& before,
+                 const Pose& shown, const Pose& now, const Pose& after, float seconds, float lever);
 
 }  // namespace ringcraft

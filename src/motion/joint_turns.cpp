@@ -12,11 +12,23 @@ Quat as_left(Side side, Quat q) {
   return side == Side::left ? q : Quat(q.w, q.x, -q.y, -q.z);
 }
 
+// Turns a thigh onto the line from hip to ankle.
+Quat onto_line(const Skeleton& skeleton, const Limb& limb, const Pose& pose) {
+  const float upper = skeleton.bone(limb.middle), lower = skeleton.bone(limb.end);
+  const float bent = flexion(skeleton, limb, pose.rotation[index(limb.middle)]);
+  return glm::angleAxis(std::atan2(lower * std::sin(bent), upper + lower * std::cos(bent)),
+                        hinge_axis(limb));
+}
+
 }  // namespace
+
+bool is_leg(const Limb& limb) {
+  return limb.root == leg(Side::left).root || limb.root == leg(Side::right).root;
+}
 
 // The humerus: forward, out and down. The thigh: 45 degrees of flexion and 7 of abduction.
 BallJoint ball_joint(const Limb& limb) {
-  if (limb.root == leg(Side::left).root || limb.root == leg(Side::right).root) {
+  if (is_leg(limb)) {
     return {glm::angleAxis(radians(7), kForward) * glm::angleAxis(radians(-45), kLeft), kUp};
   }
   return {rotation_between(kLeft, Vec3{.55f, -.35f, .75f}), kLeft};
@@ -45,6 +57,29 @@ Quat mix_root(Side side, const Limb& limb, Quat a, Quat b, float share) {
 float flexion(const Skeleton& skeleton, const Limb& limb, Quat rotation) {
   const Vec3 rest = skeleton.offset[index(limb.end)], bone = rotation * rest;
   return std::atan2(glm::dot(glm::cross(rest, bone), hinge_axis(limb)), glm::dot(rest, bone));
+}
+
+float reach_of(const Skeleton& skeleton, const Limb& limb, float flexion) {
+  const float upper = skeleton.bone(limb.middle), lower = skeleton.bone(limb.end);
+  return std::sqrt(upper * upper + lower * lower + 2 * upper * lower * std::cos(flexion));
+}
+
+float flexion_for(const Skeleton& skeleton, const Limb& limb, float reach) {
+  const float upper = skeleton.bone(limb.middle), lower = skeleton.bone(limb.end);
+  const float cosine = (reach * reach - upper * upper - lower * lower) / (2 * upper * lower);
+  return std::acos(std::clamp(cosine, -1.0f, 1.0f));
+}
+
+Vec3 root_turns(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& pose) {
+  Quat root = pose.rotation[index(limb.root)];
+  if (is_leg(limb)) root = root * onto_line(skeleton, limb, pose);
+  return ball_turns(ball_joint(limb), side, root);
+}
+
+void set_root_turns(const Skeleton& skeleton, Side side, const Limb& limb, Vec3 turns, Pose& pose) {
+  Quat root = ball_rotation(ball_joint(limb), side, turns);
+  if (is_leg(limb)) root = root * glm::conjugate(onto_line(skeleton, limb, pose));
+  pose.rotation[index(limb.root)] = glm::normalize(root);
 }
 
 float slowed(float angle, const Free& free, float from, float most) {

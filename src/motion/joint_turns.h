@@ -23,6 +23,17 @@ Quat mix_root(Side side, const Limb& limb, Quat a, Quat b, float share);
 // Flexion of a limb's middle joint, rad, about its hinge; negative where it is bent backwards.
 float flexion(const Skeleton& skeleton, const Limb& limb, Quat rotation);
 
+// How far, m, a limb reaches that is bent so, and the flexion, rad, with which it reaches so far.
+float reach_of(const Skeleton& skeleton, const Limb& limb, float flexion);
+float flexion_for(const Skeleton& skeleton, const Limb& limb, float reach);
+
+// The turns of a humerus, or of the line from hip to ankle: the thigh of a leg that is nearly
+// straight goes far where its foot goes little.
+bool is_leg(const Limb& limb);
+Vec3 root_turns(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& pose);
+// Turns the limb's root so; its middle joint is bent already.
+void set_root_turns(const Skeleton& skeleton, Side side, const Limb& limb, Vec3 turns, Pose& pose);
+
 // What lets a joint go on freely: what its clip has, and, fading, what the seam had.
 struct Free {
   float own, seam;  // rad

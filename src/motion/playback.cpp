@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kLongestArm = 0.9995f;  // of its length: where nothing is eased any more
 constexpr float kSoftReach = 0.97f;     // of the arm's length: beyond it a blended reach is eased
+constexpr float kSoftLeg = 0.91f;       // of the leg's
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
@@ -114,7 +115,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
                                   after.rotation[j], of_trunk ? trunk : seconds,
                                   simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
-  flexion_.fill({});
+  hinges_.fill({});
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     if (arms_by_joints[i]) stitch_hinge(arm(side), now, after);
@@ -133,13 +134,13 @@ void Playback::stitch(const Pose& now, const Pose& after) {
     const auto i = static_cast<std::size_t>(side);
     hands_[i] = shoulders_[i] = hip_joints_[i] = {};
     if (feet_.by_joints(side)) {
-      hip_joints_[i] = root_decay(side, leg(side), before_, shown_, now, after, seconds,
+      hip_joints_[i] = root_decay(skeleton_, side, leg(side), before_, shown_, now, after, seconds,
                                   lever_of(skeleton_, leg(side).root));
     }
     if (arms_by_joints[i]) {
       seam_shoulder_[i] =
           ball_turns(ball_joint(arm(side)), side, shown_.rotation[index(arm(side).root)]);
-      shoulders_[i] = root_decay(side, arm(side), before_, shown_, now, after, seconds,
+      shoulders_[i] = root_decay(skeleton_, side, arm(side), before_, shown_, now, after, seconds,
                                  lever_of(skeleton_, arm(side).root));
       continue;
     }
@@ -172,7 +173,7 @@ const Pose& Playback::next_simulated(const Pose& pose) {
   turn_ = {};
   hands_ = {};
   shoulders_ = hip_joints_ = {};
-  flexion_.fill({});
+  hinges_.fill({});
   rotation_.fill({});
   show(pose);
   simulated_ = true;
@@ -219,22 +220,38 @@ bool Playback::arm_by_joints(Side side, const Pose& now) const {
          kPassesNear * std::min(glm::length(from), glm::length(to));
 }
 
-// Where limbs go by their joints, knees and elbows go by their flexion, and apart from it by what
-// turns beside the hinge: as one turn, that of a bent elbow goes anywhere.
+// Where limbs go by their joints, elbows go by their flexion and legs by their reach, and apart
+// from it by what turns beside the hinge: as one turn, that of a bent elbow goes anywhere. Where a
+// clip's foot stands, its knee goes far as the leg comes near to straight; a leg in the air that
+// went by that knee's flexion would be thrown.
 void Playback::stitch_hinge(const Limb& limb, const Pose& now, const Pose& after) {
   const std::size_t j = index(limb.middle);
   const auto bent = [&](const Pose& pose) { return flexion(skeleton_, limb, pose.rotation[j]); };
   const auto beside = [&](const Pose& pose) {
     return glm::angleAxis(-bent(pose), hinge_axis(limb)) * pose.rotation[j];
   };
+  const auto goes_by = [&](const Pose& pose) {
+    return is_leg(limb) ? reach_of(skeleton_, limb, bent(pose)) : bent(pose);
+  };
   const float lever = lever_of(skeleton_, limb.middle);
-  const float was = bent(before_), is = bent(shown_), clip = bent(now);
-  const float velocity = (is - was - (bent(after) - clip)) / kTickSeconds;
-  seam_flexion_[j] = is;
-  flexion_[j] = {Vec3{2 * is - was - clip, 0, 0}, Vec3{velocity, 0, 0}, blend_seconds_,
-                 stopping_seconds(Vec3{velocity * lever, 0, 0})};
+  const float was = goes_by(before_), is = goes_by(shown_), clip = goes_by(now);
+  const float velocity = (is - was - (goes_by(after) - clip)) / kTickSeconds;
+  seam_flexion_[j] = bent(shown_);
+  hinges_[j] = {Vec3{2 * is - was - clip, 0, 0}, Vec3{velocity, 0, 0}, blend_seconds_,
+                stopping_seconds(Vec3{velocity * (is_leg(limb) ? 1 : lever), 0, 0})};
   rotation_[j] = rotation_decay(beside(before_), beside(shown_), beside(now), beside(after),
                                 blend_seconds_, lever);
+}
+
+// The flexion with which a leg reaches so much longer, m, than its clip's. A clip's knee that is
+// bent backwards comes back as the blend fades.
+float Playback::bent_leg(const Limb& limb, const Free& free, float longer) const {
+  const auto reach = [&](float bent) { return reach_of(skeleton_, limb, bent); };
+  const float length = reach(0);
+  const float reaches =
+      slowed(reach(free.own) + longer, {reach(free.own), reach(free.seam), free.gone},
+             kSoftLeg * length, length);
+  return flexion_for(skeleton_, limb, reaches) + free.gone * std::min(0.0f, 2 * free.own);
 }
 
 // A knee or an elbow that carries its speed on may pass straight, or fold: it slows before.
@@ -242,15 +259,16 @@ void Playback::bend_hinges(const Pose& clip_pose, Pose& pose) {
   for (const Side side : kSides) {
     for (const Limb& limb : {arm(side), leg(side)}) {
       const std::size_t j = index(limb.middle);
-      Decay& offset = flexion_[j];
+      Decay& offset = hinges_[j];
       if (offset.done()) continue;
       const Vec3 axis = hinge_axis(limb);
       const float own = flexion(skeleton_, limb, clip_pose.rotation[j]);
       const float gone = 1 - offset.seconds_left() / blend_seconds_;
       const float seam = seam_flexion_[j];
       // A leg that is nearly straight would bend at once where its foot is lifted.
-      const float straight = limb.middle == leg(side).middle ? radians(-8) : 0.0f;
-      float bent = own + offset.value().x;
+      const float straight = is_leg(limb) ? radians(-8) : 0.0f;
+      const float more = offset.value().x;
+      float bent = is_leg(limb) ? bent_leg(limb, {own, seam, gone}, more) : own + more;
       bent = -slowed(-bent, {-own, -seam, gone}, radians(-16), straight);
       bent = slowed(bent, {own, seam, gone}, radians(130), radians(148));
       const Quat beside = from_rotation_vector(rotation_[j].value()) * glm::angleAxis(-own, axis) *
@@ -268,15 +286,13 @@ void Playback::turn_roots(const Pose& clip_pose, Pose& pose) {
       if (offset->done()) continue;
       const bool shoulder = offset == &shoulders_[i];
       const Limb limb = shoulder ? arm(side) : leg(side);
-      const BallJoint joint = ball_joint(limb);
-      const std::size_t j = index(limb.root);
-      const Vec3 own = ball_turns(joint, side, clip_pose.rotation[j]);
+      const Vec3 own = root_turns(skeleton_, side, limb, clip_pose);
       Vec3 turns = own + offset->value();
       if (shoulder) {
         const float gone = 1 - offset->seconds_left() / blend_seconds_;
-        turns = shoulder_slowed(joint, turns, own, seam_shoulder_[i], gone);
+        turns = shoulder_slowed(ball_joint(limb), turns, own, seam_shoulder_[i], gone);
       }
-      pose.rotation[j] = ball_rotation(joint, side, turns);
+      set_root_turns(skeleton_, side, limb, turns, pose);
       offset->step(kTickSeconds);
     }
   }

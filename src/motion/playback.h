@@ -12,6 +12,7 @@
 #include "motion/clip.h"
 #include "motion/decay.h"
 #include "motion/feet.h"
+#include "motion/joint_turns.h"
 
 namespace ringcraft {
 
@@ -53,6 +54,7 @@ class Playback {
   Decay hips_decay(Vec3 offset, Vec3 velocity) const;
   bool arm_by_joints(Side side, const Pose& now) const;
   void stitch_hinge(const Limb& limb, const Pose& now, const Pose& after);
+  float bent_leg(const Limb& limb, const Free& free, float longer) const;
   void bend_hinges(const Pose& clip_pose, Pose& pose);
   void turn_roots(const Pose& clip_pose, Pose& pose);
   void place_hands(const Pose& clip_pose, Pose& pose);
@@ -67,13 +69,13 @@ class Playback {
   float blend_seconds_ = 0.24f;                    // of the last seam
   BodyTurn turn_;                                  // of the hips
   std::array<Decay, kJointCount> rotation_;        // of the joints above and below them
-  std::array<Decay, kJointCount> flexion_;         // of knees and elbows about their hinge (x, rad)
+  std::array<Decay, kJointCount> hinges_;          // x: of elbows' flexion, rad; of legs' reach, m
   std::array<float, kJointCount> seam_flexion_{};  // rad: the same at the seam
   Decay hips_;
   std::array<Decay, 2> hands_;            // of the wrists' world positions
   std::array<Decay, 2> shoulders_;        // of arms that go by their joints instead
   std::array<Vec3, 2> seam_shoulder_{};   // rad: how those were turned at the seam
-  std::array<Decay, 2> hip_joints_;       // of legs that do
+  std::array<Decay, 2> hip_joints_;       // of the lines of legs that do
   std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   Feet feet_;
 };

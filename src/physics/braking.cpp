@@ -1,6 +1,7 @@
 #include "physics/braking.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ringcraft {
 namespace {
@@ -8,6 +9,8 @@ namespace {
 constexpr float kSetsIn = .03f;        // s after the blow: the legs are stiff already
 constexpr float kFull = .10f;          // s
 constexpr float kDeceleration = 6.0f;  // m/s2: of a foot that is planted to stop
+constexpr float kFastestSpin = 8;      // rad/s about the vertical
+constexpr float kSpinBrake = 60;       // rad/s2
 constexpr float kOnFloor = .03f;       // m: a sole that is higher brakes nothing
 
 Vec3 over_ground(Vec3 v) {
@@ -35,6 +38,13 @@ void Braking::brake(Ragdoll& ragdoll, float seconds) {
   const Vec3 off = left_ * std::min(1.0f, most / speed);
   left_ -= off;
   ragdoll.quicken(-off);
+}
+
+void Braking::brake_spin(Ragdoll& ragdoll, float seconds) {
+  const float spin = ragdoll.yaw_rate(), beyond = std::abs(spin) - kFastestSpin;
+  if (beyond <= 0) return;
+  const float most = kSpinBrake * glm::smoothstep(kSetsIn, kFull, seconds) * kRagdollStep;
+  ragdoll.turn_faster(std::copysign(std::min(beyond, most), -spin));
 }
 
 }  // namespace ringcraft

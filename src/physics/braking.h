@@ -14,6 +14,10 @@ class Braking {
   // stays.
   void brake(Ragdoll& ragdoll, float seconds);
 
+  // The same of a body that spins faster than fighters do by themselves: it stays on its feet, and
+  // its limbs could not be held so.
+  static void brake_spin(Ragdoll& ragdoll, float seconds);
+
  private:
   const BodyModel& body_;
   Vec3 left_{};  // m/s over the ground, to be taken off

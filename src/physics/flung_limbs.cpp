@@ -1,5 +1,7 @@
 #include "physics/flung_limbs.h"
 
+#include <algorithm>
+
 #include "motion/ik.h"
 #include "motion/joint_turns.h"
 
@@ -9,8 +11,17 @@ namespace {
 constexpr float kFlungSpin = 60;   // rad/s: as fast as limbs are shown
 constexpr float kCaughtSpin = 7;   // rad/s: as fast as they turn when they have been caught
 constexpr float kCaughtBend = 5;   // rad/s: and bend
+constexpr float kCaughtEnd = 5;    // m/s about the hips: as fast as their ends go then
 constexpr float kFlung = .03f;     // s: until then struck limbs fly as they do
 constexpr float kCaughtBy = .10f;  // s: by then they are caught
+
+// The limb `share` of its way on from where it was.
+void go_on(Side side, const Limb& limb, float share, const Pose& last, Pose& pose) {
+  Quat &root = pose.rotation[index(limb.root)], &middle = pose.rotation[index(limb.middle)];
+  const Quat was = last.rotation[index(limb.middle)];
+  root = mix_root(side, limb, last.rotation[index(limb.root)], root, share);
+  middle = glm::normalize(glm::slerp(was, in_hemisphere_of(middle, was), share));
+}
 
 // The limb turns by no more than `turns` and bends by no more than `bends`, rad.
 void slow_limb(Side side, const Limb& limb, float turns, float bends, const Pose& last,
@@ -29,7 +40,27 @@ void slow_limb(Side side, const Limb& limb, float turns, float bends, const Pose
 
 }  // namespace
 
-FlungLimbs::FlungLimbs(const ImpactFrame& frame) : stood_(frame.contacts()), last_(frame.pose()) {}
+FlungLimbs::FlungLimbs(const BodyModel& body, const ImpactFrame& frame)
+    : body_(body), stood_(frame.contacts()), last_(frame.pose()) {}
+
+// What the body's spin takes along already waits with what it does by itself: of both together a
+// hand would come round faster than any arm could hold it.
+void FlungLimbs::slow_end(Side side, const Limb& limb, float caught, Pose& pose) const {
+  const auto end = [&](const Pose& p) {
+    const WorldPose world = world_pose(body_.skeleton, p);
+    return world.position[index(limb.end)] - world.position[index(Joint::hips)];
+  };
+  const Vec3 was = end(last_);
+  const auto speed = [&](const Pose& p) { return glm::distance(end(p), was) / kTickSeconds; };
+  const float goes = speed(pose);
+  if (goes <= kCaughtEnd) return;
+  Pose waiting = pose;
+  go_on(side, limb, 0, last_, waiting);
+  const float taken_along = speed(waiting);
+  if (taken_along >= goes) return;
+  const float share = std::max(0.0f, kCaughtEnd - taken_along) / (goes - taken_along);
+  go_on(side, limb, glm::mix(1.0f, share, caught), last_, pose);
+}
 
 void FlungLimbs::slow(float seconds, Pose& pose) {
   const float caught = glm::smoothstep(kFlung, kCaughtBy, seconds);
@@ -37,7 +68,10 @@ void FlungLimbs::slow(float seconds, Pose& pose) {
   const float bends = glm::mix(kFlungSpin, kCaughtBend, caught) * kTickSeconds;
   for (const Side side : {Side::left, Side::right}) {
     slow_limb(side, arm(side), turns, bends, last_, pose);
-    if (!stood_.of(side)) slow_limb(side, leg(side), turns, bends, last_, pose);
+    slow_end(side, arm(side), caught, pose);
+    if (stood_.of(side)) continue;
+    slow_limb(side, leg(side), turns, bends, last_, pose);
+    slow_end(side, leg(side), caught, pose);
   }
   last_ = pose;
 }

@@ -8,13 +8,16 @@ namespace ringcraft {
 
 class FlungLimbs {
  public:
-  explicit FlungLimbs(const ImpactFrame& frame);
+  FlungLimbs(const BodyModel& body, const ImpactFrame& frame);
 
   // Lets the arms, and the legs that did not stand when the blow landed, turn no faster in the next
   // pose, one tick later and `seconds` after the blow, than limbs that are being caught do.
   void slow(float seconds, Pose& pose);
 
  private:
+  void slow_end(Side side, const Limb& limb, float caught, Pose& pose) const;
+
+  const BodyModel& body_;
   FootContacts stood_;
   Pose last_;
 };

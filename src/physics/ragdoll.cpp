@@ -391,6 +391,14 @@ void Ragdoll::quicken(Vec3 velocity) {
   for (const auto& b : world_->bodies) b->setLinearVelocity(b->getLinearVelocity() + bt(velocity));
 }
 
+void Ragdoll::turn_faster(float yaw_rate) {
+  const btVector3 turning(0, yaw_rate, 0), at = bt(center_of_mass());
+  for (const auto& b : world_->bodies) {
+    b->setAngularVelocity(b->getAngularVelocity() + turning);
+    b->setLinearVelocity(b->getLinearVelocity() + turning.cross(b->getCenterOfMassPosition() - at));
+  }
+}
+
 void Ragdoll::step() {
   // With 0 substeps Bullet takes the whole time as one step.
   world_->world->stepSimulation(world_->settings.step, 0);
@@ -466,6 +474,19 @@ Vec3 Ragdoll::angular_momentum() const {
     sum += turn * (world_->body.parts[i].inertia * spin);
   }
   return sum;
+}
+
+float Ragdoll::yaw_rate() const {
+  const Vec3 at = center_of_mass();
+  float inertia = 0;  // kg m2
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const btRigidBody& b = *world_->bodies[i];
+    const Vec3 offset = vec(b.getCenterOfMassPosition()) - at;
+    const Vec3 up = glm::conjugate(quat(b.getOrientation())) * kUp;
+    inertia += world_->body.parts[i].mass * (offset.x * offset.x + offset.z * offset.z) +
+               glm::dot(up * up, world_->body.parts[i].inertia);
+  }
+  return angular_momentum().y / inertia;
 }
 
 float Ragdoll::fastest() const {

@@ -50,6 +50,7 @@ class Ragdoll {
   void stop(const Pose& back, const std::array<bool, kPartCount>& beyond);
   void push(Part part, Vec3 point, Vec3 impulse);  // world, m and N s
   void quicken(Vec3 velocity);                     // the whole body, m/s
+  void turn_faster(float yaw_rate);                // as one about the vertical, rad/s
   void step();
 
   Pose pose() const;  // what the body shows now, on the canonical skeleton
@@ -57,6 +58,7 @@ class Ragdoll {
   Vec3 center_of_mass() const;
   Vec3 center_of_mass_velocity() const;
   Vec3 angular_momentum() const;  // about the centre of mass, kg m2/s
+  float yaw_rate() const;         // of the whole body about the vertical there, rad/s
   float fastest() const;          // largest speed of any part's centre of mass, m/s
 
  private:

@@ -297,7 +297,7 @@ class Shown {
         mend_(body, frame_.pose()),
         feet_(body, frame_),
         braking_(body, frame_),
-        limbs_(frame_),
+        limbs_(body, frame_),
         within_(frame_.pose()),
         into_clip_(seconds_to_clip(kIntoClip, 50)),
         meet_by_(kMeetFrom + seconds_to_clip(kMeetBy - kMeetFrom, 20)),
@@ -320,7 +320,9 @@ class Shown {
  private:
   void step(int k) {
     keep_ranges();
-    braking_.brake(ragdoll_, static_cast<float>(k) * kRagdollStep);
+    const float seconds = static_cast<float>(k) * kRagdollStep;
+    braking_.brake(ragdoll_, seconds);
+    if (outcome_.response != ResponseKind::knockdown) Braking::brake_spin(ragdoll_, seconds);
     if (k < steps_of_blow_) {
       strike(ragdoll_, body_, frame_, 1.0f / static_cast<float>(steps_of_blow_));
     }

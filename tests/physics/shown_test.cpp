@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "physics/braking.h"
 #include "physics/hit.h"
 #include "physics/impact.h"
 #include "physics/ragdoll.h"
@@ -225,6 +226,24 @@ TEST_F(Shown, NoHitExplodes) {
       EXPECT_TRUE(limit_violations(body, pose, radians(15)).empty()) << i;
     }
     EXPECT_LT(fastest_joint(poses), 45) << i;
+  }
+}
+
+// A whole body turned by 13 rad/s is down to what fighters turn with by themselves before the clip
+// takes over; the centre of mass goes on as it did.
+TEST(Braking, ASpinIsBrakedToWhatFightersTurnWith) {
+  const BodyModel body = make_body({});
+  const Pose pose = stance::fighting(body);
+  RagdollSettings floats;
+  floats.gravity = floats.ground = false;
+  for (const float spin : {13.0f, -13.0f, 7.0f}) {
+    Ragdoll ragdoll(body, pose, pose, kTickSeconds, floats);
+    ragdoll.turn_faster(spin);
+    EXPECT_NEAR(ragdoll.yaw_rate(), spin, 1e-3f);
+    for (int k = 0; k < 48; ++k) Braking::brake_spin(ragdoll, static_cast<float>(k) * kRagdollStep);
+    EXPECT_NEAR(std::abs(ragdoll.yaw_rate()), std::min(8.0f, std::abs(spin)), .01f);
+    EXPECT_GT(ragdoll.yaw_rate() * spin, 0);
+    EXPECT_LT(glm::length(ragdoll.center_of_mass_velocity()), 1e-3f);
   }
 }
 

@@ -147,10 +147,29 @@ TEST(StruckBodies, PassToTheirClipWithoutAPop) {
       {"guard_2", .096, Part::left_upper_arm, {61.877f, 0, 30.140f}, .726f},
       {"duck", .096, Part::left_upper_arm, {-40.180f, 0, 6.492f}, .938f},
       {"check_kick_lead", .306, Part::chest, {-32.629f, 0, 25.656f}, .987f},
-      {"knee_rear", .398, Part::left_upper_arm, {-11.354f, 0, 16.664f}, .645f}};
+      {"knee_rear", .398, Part::left_upper_arm, {-11.354f, 0, 16.664f}, .645f},
+      // spinning: arms that came round with the body and with their own swing
+      {"roundhouse_rear_low_near", .41566952, Part::chest, {18.825232f, 0, 29.72795f}, .90457034f},
+      {"jab_low_kick", .593401, Part::right_thigh, {-13.482088f, 0, -17.606865f}, .70505685f}};
   for (const StruckCase& c : cases) {
     EXPECT_LT(velocity_jump(answer_to_case(c), 19, 60), 1.5f) << c.action;
   }
+}
+
+// A leg that was lifted when the blow landed, over a clip whose feet stand and whose knees
+// straighten (thrown by them, its toes jump by 3.0 m/s).
+TEST(StruckBodies, ALegInTheAirIsNotThrownByTheKneeOfItsClip) {
+  const HitAnswer answer = answer_to_case(
+      {"knee_rear", .28680895, Part::right_thigh, {31.464165f, 0, 97.839134f}, .8099428f});
+  const auto frames = frames_from_hit(answer);
+  const auto toes_at = [&](std::size_t t) {
+    return world_pose(answer.bodies.front().skeleton, frames[t]).position[index(Joint::right_toes)];
+  };
+  float jump = 0;  // m/s between two frames at 60 Hz
+  for (std::size_t t = 40; t < 90; ++t) {
+    jump = std::max(jump, 60 * glm::length(toes_at(t) - 2.0f * toes_at(t - 2) + toes_at(t - 4)));
+  }
+  EXPECT_LT(jump, 3.0f);
 }
 
 // Where the next action begins, arms come back bent.
