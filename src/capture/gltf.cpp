@@ -218,14 +218,6 @@ Result<RawClip> read_gltf(const std::filesystem::path& path, const std::string& 
   return parse(*bytes, path.string(), clip, folder_of(path), {});
 }
 
-Result<std::vector<std::string>> gltf_clips(const std::filesystem::path& path) {
-  std::vector<std::string> names;
-  auto ok =
-      each_gltf_clip(path, [&](const std::string& name, const auto&) { names.push_back(name); });
-  if (!ok) return tl::unexpected(ok.error());
-  return names;
-}
-
 Result<void> each_gltf_clip(const std::filesystem::path& path, const GltfClipVisitor& visit) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -29,7 +29,4 @@ using GltfClipVisitor =
 // Every animation in the file's order; the file is opened once.
 Result<void> each_gltf_clip(const std::filesystem::path& path, const GltfClipVisitor& visit);
 
-// Names of all animations.
-Result<std::vector<std::string>> gltf_clips(const std::filesystem::path& path);
-
 }  // namespace ringcraft

@@ -23,9 +23,9 @@ Result<void> check_feints(const SceneFile& scene, const MotionLibrary& library) 
       if (can_be_feigned(action)) known.push_back(action.name);
     }
     const std::string near = nearest_word(name, known);
-    return usage_error(scene.path.string(), "feints",
-                       fmt::format("{} \"{}\" {}", id.valid() ? "action" : "no action", name,
-                                   id.valid() ? "cannot be feigned" : "in the library"),
+    return usage_error(scene.path.string(), scene.feints_at,
+                       fmt::format("feints: {} \"{}\" {}", id.valid() ? "action" : "no action",
+                                   name, id.valid() ? "cannot be feigned" : "in the library"),
                        near.empty() ? "name an attack; `ringcraft library inspect` shows them all"
                                     : "did you mean \"" + near + "\"?");
   }

@@ -86,6 +86,7 @@ class Reader {
     scene_.ring = value_.value("ring_m", scene_.ring);
     scene_.stance_switches = value_.value("stance_switches", false);
     scene_.feints = value_.value("feints", std::vector<std::string>{});
+    scene_.feints_at = document_.place("/feints");
     read_planner();
     if (auto done = read_library(); !done) return tl::unexpected(done.error());
     for (std::size_t i = 0; i < value_["fighter"].size(); ++i) {

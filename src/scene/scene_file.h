@@ -39,6 +39,7 @@ struct SceneFile {
   PlanSettings planner;             // ring_half_m is set from `ring`
   bool stance_switches = false;     // fighters may change their stance
   std::vector<std::string> feints;  // attacks that fighters may feign (motion/feints.h)
+  std::string feints_at;            // where the file says so, for messages: "line 12"
 
   // Hash of all the file says but the seed, with the bodies and styles it names. The library and
   // the characters count by their names.

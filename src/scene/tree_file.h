@@ -6,8 +6,6 @@
 
 namespace ringcraft {
 
-inline constexpr std::size_t kTreeNodes = 400;  // written where nothing else is asked
-
 struct SceneTree {
   std::string scene;
   std::uint64_t seed = 0;
