@@ -36,11 +36,11 @@ void set_root_turns(const Skeleton& skeleton, Side side, const Limb& limb, Vec3 
 
 // What lets a joint go on freely: what its clip has, and, fading, what the seam had.
 struct Free {
-  float own, seam;  // rad
+  float own, seam;  // rad; of a leg's reach m
   float gone;       // of the blend, 0 .. 1
 };
 
-// An angle that comes near to `most`, slower and slower from `from` on.
+// An angle, or a reach, that comes near to `most`, slower and slower from `from` on.
 float slowed(float angle, const Free& free, float from, float most);
 
 // A humerus inside its cone and its turn (limits.cpp of physics), which it comes near to slowly.
