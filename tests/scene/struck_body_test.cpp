@@ -157,7 +157,8 @@ TEST(StruckBodies, PassToTheirClipWithoutAPop) {
 }
 
 // A leg that was lifted when the blow landed, over a clip whose feet stand and whose knees
-// straighten (thrown by them, its toes jump by 3.0 m/s).
+// straighten: its toes jump by 2.5 m/s, the clip's hips having their part in it; thrown by thigh
+// and knee they jump by 4.0.
 TEST(StruckBodies, ALegInTheAirIsNotThrownByTheKneeOfItsClip) {
   const HitAnswer answer = answer_to_case(
       {"knee_rear", .28680895, Part::right_thigh, {31.464165f, 0, 97.839134f}, .8099428f});
