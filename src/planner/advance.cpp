@@ -257,7 +257,9 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
         to_ropes = setup_->settings.ring_half_m -
                    static_cast<double>(std::max(std::abs(own.x), std::abs(own.z)));
       }
-      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes),
+      const bool down = !setup_->settings.hits_on_downed &&
+                        node.side[static_cast<std::size_t>(1 - i)].balance == 2;
+      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes, down),
              Term::location);
     }
   }

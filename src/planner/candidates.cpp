@@ -179,7 +179,7 @@ std::array<double, kLanes> Duel::Aspect::rates(const BearingLanes& bearing) cons
   for (std::size_t i = 0; i < kLanes; ++i) {
     const float out = farther_out(bearing.x[i], bearing.z[i]);
     rates[i] = location_rate(own->weights, bearing.apart[i], bearing.facing[i],
-                             ropes_half - static_cast<double>(out));
+                             ropes_half - static_cast<double>(out), opponent_down);
   }
   return rates;
 }
@@ -252,7 +252,8 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
   const double to_ropes = aspect.ropes_half - static_cast<double>(farther_out(at_now.x, at_now.z));
-  aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, to_ropes);
+  aspect.rate_now =
+      location_rate(aspect.own->weights, distance, cosine, to_ropes, aspect.opponent_down);
 
   const SideSetup& their = side(1 - who);
   const Launch& launch = other.flight.launch;

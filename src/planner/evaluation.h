@@ -39,14 +39,16 @@ inline constexpr double kLeastNearness = -3.0;   // g(d) never falls below
 inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 inline constexpr double kOverlapCost = 10.0;     // points/s per metre
 inline constexpr double kRopesNear = 0.8;        // m
+inline constexpr double kLyingReach = 1.0;       // m: from the root of who lies to its head or feet
 inline constexpr float kInsideRopes = 0.2f;      // m: from the ropes to a root, which they hold
 
 // F_loc as a rate, points/s: `distance` of the roots (m), `cosine` of the opponent's bearing off
-// the own facing, `to_ropes` from the own root to the nearest ropes (m).
-inline double location_rate(const Weights& weights, double distance, double cosine,
-                            double to_ropes) {
-  double in_reach =
-      std::max(kLeastNearness, -std::abs(distance - weights.distance) / weights.sigma);
+// the own facing, `to_ropes` from the own root to the nearest ropes (m), `down` where the opponent
+// has fallen, may not be struck and needs room to rise in.
+inline double location_rate(const Weights& weights, double distance, double cosine, double to_ropes,
+                            bool down = false) {
+  const double wanted = weights.distance + (down ? kLyingReach : 0.0);
+  double in_reach = std::max(kLeastNearness, -std::abs(distance - wanted) / weights.sigma);
   in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
   const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;

@@ -242,6 +242,26 @@ TEST_F(PlanTest, FallenFighterGetsUp) {
   EXPECT_TRUE(plan.launch.forced);
 }
 
+// Where nobody strikes who is down, the other stands back; where the scene lets it, it stays.
+TEST_F(PlanTest, WhoLiesIsGivenRoomToRise) {
+  const auto distance_after = [&](bool hits_on_downed) {
+    PlanSettings settings;
+    settings.hits_on_downed = hits_on_downed;
+    Planner planner(library(), contenders(2, quick()), settings, 3);
+    FightState state = facing(.9f, 20);
+    state.fighters[1].balance = 2;
+    state.fighters[1].launch = launch("knockdown_back", -30, state.fighters[1].launch.placement);
+    for (int decisions = 0; decisions < 3; ++decisions) {
+      const Plan plan = planner.plan(state, FighterId(0), 0);
+      state.fighters[0].launch = plan.launch;
+      state.now = plan.launch.end;
+    }
+    const Placement at = root_at(library(), state.fighters[0].launch, state.now, 1);
+    return glm::distance(at.position(), state.fighters[1].launch.placement.position());
+  };
+  EXPECT_GT(distance_after(false), distance_after(true) + .3f);
+}
+
 TEST_F(PlanTest, ForeseenEventsAreThoseOfTheChosenLine) {
   Planner planner(library(), contenders(2, quick()), {}, 3);
   int hits = 0;

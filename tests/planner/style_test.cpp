@@ -78,6 +78,14 @@ TEST(EvaluationTest, LocationIsBestAtThePreferredDistanceFacingTheOpponent) {
   EXPECT_LE(least_location_rate(weights), location_rate(weights, 0, -1, 0));
 }
 
+TEST(EvaluationTest, WhoLiesIsGivenRoom) {
+  const Weights weights = weights_at({}, 0);
+  const double room = weights.distance + kLyingReach;
+  EXPECT_DOUBLE_EQ(location_rate(weights, room, 1, 3, true), 0);
+  EXPECT_LT(location_rate(weights, weights.distance, 1, 3, true), -1.5);
+  EXPECT_LE(least_location_rate(weights), location_rate(weights, 0, -1, 0, true));
+}
+
 TEST(EvaluationTest, BoredomComesCloserAndDaresMore) {
   Style style;
   style.distance_m = 1.6;
