@@ -131,9 +131,8 @@ float step_allowance(const BodyModel& body, int steps, float off) {
 }
 
 float stride_to_catch(const BodyModel& body, float beyond) {
-  constexpr float kLands = .39f;  // s after the blow: the step of kAllowances
   constexpr float kDecided = .1f;
-  return std::max(0.0f, beyond) * std::exp(pendulum_rate(body) * (kLands - kDecided));
+  return std::max(0.0f, beyond) * std::exp(pendulum_rate(body) * (kStepLands - kDecided));
 }
 
 }  // namespace ringcraft

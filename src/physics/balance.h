@@ -51,6 +51,12 @@ Base base_of(const BodyModel& body, const WorldPose& world, FootContacts contact
 // bring it back: at the instant of the blow, in a direction `off` rad from the own facing.
 float step_allowance(const BodyModel& body, int steps, float off);
 
+// Of the centre of mass's height at the blow: a body below has fallen.
+inline constexpr float kFallen = .75f;
+
+// When the first recovery step lands, s after the blow: that of `step_allowance`.
+inline constexpr float kStepLands = .39f;
+
 // How far the feet have to go to catch the body, m: where its extrapolated centre of mass, `beyond`
 // the base (m) at the end of the impulse step, will be when the first step lands (Hof 2008: a
 // change of velocity is undone by a foot placed dv / w0 farther). 0 where the body is inside.

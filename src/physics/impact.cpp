@@ -98,6 +98,10 @@ void decide(const BodyModel& body, const ImpactInput& input, const ImpactFrame& 
   }
 }
 
+Side side_of_leg(Part part) {
+  return index(part) < index(Part::right_thigh) ? Side::left : Side::right;
+}
+
 bool is_thigh(Part part) {
   return part == Part::left_thigh || part == Part::right_thigh;
 }
@@ -172,13 +176,44 @@ bool holds(const BodyModel& body, const ImpactFrame& frame, Ragdoll& ragdoll, Ba
 float swept_by(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll) {
   const Part part = frame.blow().part;
   if (zone_of(part) != TargetZone::leg) return -1;
-  const Side side = index(part) < index(Part::right_thigh) ? Side::left : Side::right;
+  const Side side = side_of_leg(part);
   if (!frame.contacts().of(side)) return -1;
   const Joint ankle = leg(side).end;
   const Vec3 was = world_pose(body.skeleton, frame.pose()).position[index(ankle)];
   const bool only = !frame.contacts().of(other(side));  // nothing else to stand on
   return glm::distance(ragdoll.motion(*part_of(ankle)).origin, was) -
          (only ? kSwept / 2 : kSwept) * body.spec.height / 1.78f;
+}
+
+// The leg that carries the body alone, where that is the one the blow meets.
+bool strikes_standing_leg(const ImpactFrame& frame) {
+  const FootContacts& contacts = frame.contacts();
+  const Part part = frame.blow().part;
+  return contacts.left != contacts.right && zone_of(part) == TargetZone::leg &&
+         contacts.of(side_of_leg(part));
+}
+
+// Height of the centre of mass, m, when a recovery step could land: watched on from step `k` on.
+float height_at_landing(const ImpactFrame& frame, Ragdoll& ragdoll, Balance& balance, int k) {
+  for (; static_cast<float>(k) * kRagdollStep < kStepLands; ++k) {
+    balance.guide(ragdoll, frame, k);
+    ragdoll.step();
+  }
+  return ragdoll.center_of_mass().y;
+}
+
+// Whether a body that was struck on its only leg, watched on from 100 ms on, has fallen before a
+// step could land, and by the blow: what sinks without it was to land on its other foot.
+bool is_toppled(const BodyModel& body, const ImpactFrame& frame, const Tone& tone, Ragdoll& struck,
+                Balance& balance) {
+  constexpr float kByTheBlow = .1f;  // of the centre of mass's height
+  Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
+  undisturbed.set_tone(tone);
+  const float height = undisturbed.center_of_mass().y;
+  const float sunk = height_at_landing(frame, struck, balance, kImpulseSteps);
+  if (sunk >= kFallen * height) return false;
+  Balance own(body, frame);
+  return sunk < height_at_landing(frame, undisturbed, own, 0) - kByTheBlow * height;
 }
 
 // Whether the body sits down: hips that drop so fast that legs which brake as hard as they can,
@@ -242,7 +277,12 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   if (swept > 0) beyond.distance = std::max(beyond.distance, swept);
   outcome.margin = beyond.distance;
   decide(body, input, frame, beyond, outcome);
-  if (swept > 0 || sits_down(body, ragdoll)) {
+  bool falls = swept > 0 || sits_down(body, ragdoll);
+  // The base itself was struck, so what is beyond it says little: the body is asked.
+  if (!falls && outcome.response == ResponseKind::recovery_steps && strikes_standing_leg(frame)) {
+    falls = is_toppled(body, frame, struck_tone(input.tone), ragdoll, balance);
+  }
+  if (falls) {
     outcome.response = ResponseKind::knockdown;
     outcome.steps = 0;
   }

@@ -5,12 +5,6 @@
 #include "physics/impact_frame.h"
 
 namespace ringcraft {
-namespace {
-
-constexpr float kFallen = .75f;  // of the centre of mass's height at the start
-
-}  // namespace
-
 Standing simulate_standing(const BodyModel& body, const ImpactInput& input, float seconds) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);

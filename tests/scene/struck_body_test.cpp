@@ -139,6 +139,22 @@ float velocity_jump(const HitAnswer& answer, Tick from, Tick to) {
   return largest;
 }
 
+// V7: who is struck on the leg that carries it alone falls where that is taken away, not where it
+// only wavers.
+TEST(StruckBodies, FallWhereTheirOnlyLegIsTakenAway) {
+  const auto answer = [](float share) {
+    const Vec3 impulse = share * Vec3{5.966f, 0, -108.625f};
+    return answer_to_case({"leg_sweep", .4506, Part::left_thigh, impulse, .644f}).outcome.response;
+  };
+  EXPECT_EQ(answer(1), ResponseKind::knockdown);
+  EXPECT_NE(answer(.2f), ResponseKind::knockdown);
+  for (const StruckCase& c : std::vector<StruckCase>{
+           {"roundhouse_lead_high", .717, Part::right_thigh, {13.8f, 0, -48.9f}, .69f},
+           {"roundhouse_rear_low_near", .377, Part::left_thigh, {-40.3f, 0, -73.2f}, .88f}}) {
+    EXPECT_EQ(answer_to_case(c).outcome.response, ResponseKind::knockdown) << c.action;
+  }
+}
+
 // Where the simulation passes to the clip, at 60 Hz: a kicking leg neither stops nor sets out for
 // its place in a frame, an arm that was flung is caught before, a leg does not hit the floor.
 TEST(StruckBodies, PassToTheirClipWithoutAPop) {
