@@ -24,21 +24,6 @@ bool finite(Quat q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
 }
 
-// Runs of `value` shorter than `ticks` between two others are turned over.
-void close_runs(std::vector<bool>& flags, bool value, Tick ticks) {
-  std::size_t begin = 0;
-  while (begin < flags.size()) {
-    std::size_t end = begin;
-    while (end < flags.size() && flags[end] == flags[begin]) ++end;
-    const bool inner = begin > 0 && end < flags.size();
-    if (flags[begin] == value && inner && static_cast<Tick>(end - begin) < ticks) {
-      std::fill(flags.begin() + static_cast<std::ptrdiff_t>(begin),
-                flags.begin() + static_cast<std::ptrdiff_t>(end), !value);
-    }
-    begin = end;
-  }
-}
-
 }  // namespace
 
 const Pose& Clip::at(Tick tick) const {
@@ -129,32 +114,6 @@ void unroll_rotations(Clip& clip) {
     for (std::size_t j = 0; j < kJointCount; ++j) {
       Quat& q = clip.frames[i].rotation[j];
       q = in_hemisphere_of(q, clip.frames[i - 1].rotation[j]);
-    }
-  }
-}
-
-void label_contacts(const Skeleton& skeleton, Clip& clip, float height, float speed, Tick ticks) {
-  const std::size_t count = clip.frames.size();
-  clip.contacts.assign(count, {});
-  std::vector<WorldPose> world;
-  world.reserve(count);
-  for (const Pose& pose : clip.frames) world.push_back(world_pose(skeleton, pose));
-  for (const Side side : {Side::left, Side::right}) {
-    const std::size_t ball = index(toes(side));
-    std::vector<bool> planted(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t before = i >= 2 ? i - 2 : 0;
-      const std::size_t after = std::min(i + 2, count - 1);
-      const Vec3 moved = world[after].position[ball] - world[before].position[ball];
-      const float elapsed =
-          static_cast<float>(std::max<std::size_t>(1, after - before)) * kTickSeconds;
-      planted[i] = world[i].position[ball].y < skeleton.toe_height() + height &&
-                   glm::length(Vec3(moved.x, 0, moved.z)) / elapsed < speed;
-    }
-    close_runs(planted, false, ticks);
-    close_runs(planted, true, ticks);
-    for (std::size_t i = 0; i < count; ++i) {
-      (side == Side::left ? clip.contacts[i].left : clip.contacts[i].right) = planted[i];
     }
   }
 }

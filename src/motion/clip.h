@@ -51,11 +51,4 @@ Clip retimed(const Clip& clip, const std::vector<float>& times);
 // Puts neighbouring rotations in one hemisphere.
 void unroll_rotations(Clip& clip);
 
-// Foot contacts from heights and speeds: the ball of the foot within `height` m of its standing
-// height and slower than `speed` m/s over the ground; gaps and blips shorter than `ticks` are
-// closed. The heel may be up, as a boxer's rear heel is; a foot that stands on its heel alone is
-// not seen.
-void label_contacts(const Skeleton& skeleton, Clip& clip, float height = 0.045f,
-                    float speed = 0.35f, Tick ticks = 6);
-
 }  // namespace ringcraft

@@ -182,12 +182,4 @@ TargetZone zone_of(Part part) {
   }
 }
 
-std::uint32_t zone_parts(TargetZone zone) {
-  std::uint32_t parts = 0;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    if (!is_guard_part(part_at(i)) && zone_of(part_at(i)) == zone) parts |= bit(part_at(i));
-  }
-  return parts;
-}
-
 }  // namespace ringcraft

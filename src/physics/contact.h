@@ -83,9 +83,7 @@ std::optional<Contact> fall_contact(const SweptBody& faller, const SweptBody& ot
 std::uint32_t striking_parts(const Strike& strike);
 inline constexpr std::size_t kMostStrikingParts = 2;
 
-// Parts of a zone, bit index(part). Guard parts belong to none. Head: head and neck; body: trunk
-// and upper arms; leg: thighs, shins, feet.
-std::uint32_t zone_parts(TargetZone zone);
-TargetZone zone_of(Part part);  // guard parts count as body
+// Head: head and neck; body: trunk and arms; leg: thighs, shins, feet.
+TargetZone zone_of(Part part);
 
 }  // namespace ringcraft

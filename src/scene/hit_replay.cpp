@@ -192,9 +192,14 @@ tl::unexpected<Error> fault(const std::string& file, std::size_t line, std::stri
                      "give an events.jsonl as `ringcraft fight` wrote it");
 }
 
-// Every hit and block of the file.
-Result<std::vector<HitLine>> hits_of(const std::string& file, std::string_view events) {
+struct HitLines {
+  std::string version;  // of the program that wrote them, where the header says so
   std::vector<HitLine> hits;
+};
+
+// Every hit and block of the file.
+Result<HitLines> hits_of(const std::string& file, std::string_view events) {
+  HitLines all;
   std::size_t number = 0;
   while (!events.empty()) {
     ++number;
@@ -209,7 +214,11 @@ Result<std::vector<HitLine>> hits_of(const std::string& file, std::string_view e
     if (!event.is_object()) return fault(file, number, "not a JSON object");
     const auto type = event.find("type");
     if (type == event.end() || !type->is_string()) return fault(file, number, "no 'type'");
-    if (number == 1 && *type != "header") return fault(file, number, "not the header line");
+    if (number == 1) {
+      if (*type != "header") return fault(file, number, "not the header line");
+      const auto version = event.find("version");
+      if (version != event.end() && version->is_string()) all.version = *version;
+    }
     if (*type != "hit" && *type != "block") continue;
     const auto text = event.find("replay");
     if (text == event.end() || !text->is_string()) {
@@ -219,10 +228,10 @@ Result<std::vector<HitLine>> hits_of(const std::string& file, std::string_view e
     auto replay = read_replay(text->get_ref<const std::string&>(), why);
     if (!replay) return fault(file, number, "'replay' " + why);
     event.erase(text);
-    hits.push_back({number, std::move(event), std::move(*replay)});
+    all.hits.push_back({number, std::move(event), std::move(*replay)});
   }
   if (number == 0) return fault(file, 1, "the file is empty");
-  return hits;
+  return all;
 }
 
 }  // namespace
@@ -289,22 +298,29 @@ std::optional<HitReplay> read_replay(std::string_view text, std::string& why) {
 
 Result<ReplayReport> replay_hits(const std::string& file, std::string_view events, int threads,
                                  const std::atomic<bool>* interrupted) {
-  const auto hits = hits_of(file, events);
-  if (!hits) return tl::unexpected(hits.error());
-  std::vector<std::string> found(hits->size());
+  const auto read = hits_of(file, events);
+  if (!read) return tl::unexpected(read.error());
+  const std::vector<HitLine>& hits = read->hits;
+  std::vector<std::string> found(hits.size());
   std::atomic<std::size_t> done = 0;
-  run_tasks(hits->size(), threads, [&](std::size_t i) {
+  run_tasks(hits.size(), threads, [&](std::size_t i) {
     if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) return;
-    found[i] = differences((*hits)[i].replay, (*hits)[i].event);
+    found[i] = differences(hits[i].replay, hits[i].event);
     ++done;
   });
   ReplayReport report;
   report.hits = done;
-  report.interrupted = done < hits->size();
+  report.interrupted = done < hits.size();
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].empty()) continue;
     ++report.differ;
-    report.lines.push_back(fmt::format("{}: line {}: {}", file, (*hits)[i].number, found[i]));
+    report.lines.push_back(fmt::format("{}: line {}: {}", file, hits[i].number, found[i]));
+  }
+  if (report.differ > 0 && !read->version.empty() && read->version != RINGCRAFT_VERSION) {
+    report.lines.push_back(
+        fmt::format("{}: line 1: written by ringcraft {}, and this is {}: replay "
+                    "it with the version that wrote it",
+                    file, read->version, RINGCRAFT_VERSION));
   }
   return report;
 }

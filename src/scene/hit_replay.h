@@ -35,7 +35,8 @@ std::optional<HitReplay> read_replay(std::string_view text, std::string& why);
 
 struct ReplayReport {
   std::size_t hits = 0, differ = 0;  // recomputed; of these, not as the file says
-  std::vector<std::string> lines;    // one a difference, in the file's order
+  // One a difference, in the file's order; last, where there is one, that another version wrote it.
+  std::vector<std::string> lines;
   bool interrupted = false;
 };
 

@@ -100,40 +100,5 @@ TEST(Clip, CuttingBeyondTheEndsStopsAtThem) {
   EXPECT_EQ(cut(clip, 30, 20).length(), 0);
 }
 
-// Ticks at which the labels of a clip differ from the ones it was built with.
-int wrong_labels(const Clip& truth) {
-  Clip clip = truth;
-  label_contacts(kSkeleton, clip);
-  int wrong = 0;
-  for (std::size_t i = 0; i < clip.contacts.size(); ++i) {
-    wrong += clip.contacts[i].left != truth.contacts[i].left;
-    wrong += clip.contacts[i].right != truth.contacts[i].right;
-  }
-  return wrong;
-}
-
-TEST(Clip, LabelsFindTheFeetThatStandWithTheHeelUpToo) {
-  EXPECT_EQ(wrong_labels(test::idle_clip(kSkeleton)), 0);
-  EXPECT_EQ(wrong_labels(test::jab_clip(kSkeleton)), 0);
-}
-
-TEST(Clip, LabelsFindAStepAndAKickWithinAFewTicksOfEachSwitch) {
-  // Slow in its first and last ticks, a step is seen later and ends earlier than its arc does.
-  EXPECT_LE(wrong_labels(test::step_clip(kSkeleton, {0, 0, 0.35f})), 4 * 5);
-  EXPECT_LE(wrong_labels(test::kick_clip(kSkeleton)), 2 * 10);
-  Clip clip = test::step_clip(kSkeleton, {0, 0, 0.35f});
-  label_contacts(kSkeleton, clip);
-  const Tick first = clip.length() * 3 / 10, second = clip.length() * 7 / 10;
-  EXPECT_EQ(clip.contacts_at(first), (FootContacts{false, true}));
-  EXPECT_EQ(clip.contacts_at(second), (FootContacts{true, false}));
-}
-
-TEST(Clip, LabelsCloseGapsAndBlips) {
-  Clip clip = test::idle_clip(kSkeleton);
-  for (std::size_t i = 30; i < 33; ++i) clip.frames[i].hips.y += 0.2f;  // a glitch of three frames
-  label_contacts(kSkeleton, clip);
-  for (const FootContacts& contact : clip.contacts) EXPECT_EQ(contact, (FootContacts{true, true}));
-}
-
 }  // namespace
 }  // namespace ringcraft

@@ -155,15 +155,11 @@ TEST(StrikeContact, AgreesWithSubSteps) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(Zones, GuardPartsBelongToNoneAndTheRestToOne) {
-  const std::uint32_t head = zone_parts(TargetZone::head), body = zone_parts(TargetZone::body),
-                      legs = zone_parts(TargetZone::leg);
-  EXPECT_EQ(head & body, 0u);
-  EXPECT_EQ(head & legs, 0u);
-  EXPECT_EQ(body & legs, 0u);
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    EXPECT_EQ(((head | body | legs) >> i) & 1u, is_guard_part(part_at(i)) ? 0u : 1u);
-  }
+TEST(Zones, ArmsCountAsBody) {
+  EXPECT_EQ(zone_of(Part::neck), TargetZone::head);
+  EXPECT_EQ(zone_of(Part::right_hand), TargetZone::body);
+  EXPECT_EQ(zone_of(Part::pelvis), TargetZone::body);
+  EXPECT_EQ(zone_of(Part::left_thigh), TargetZone::leg);
 }
 
 TEST(FallContact, OnlyAPartThatItselfComesFallsUponAnother) {

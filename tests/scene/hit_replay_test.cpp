@@ -59,6 +59,19 @@ TEST(HitReplay, IsNoPartOfTheTimelinesHash) {
   EXPECT_EQ(without.hash(), answer->timeline.hash());
 }
 
+TEST(HitReplay, SaysWhereAnotherVersionWroteWhatDiffers) {
+  const std::string header = R"({"type":"header","version":"0.0.9"})";
+  std::string text = header + hit_events().substr(hit_events().find('\n'));
+  EXPECT_TRUE(replayed(text)->lines.empty());  // what comes out the same needs no excuse
+  const std::size_t at = text.find("\"steps\":") + 8;
+  text[at] = text[at] == '7' ? '8' : '7';
+  const auto report = replayed(text);
+  ASSERT_TRUE(report) << to_string(report.error());
+  EXPECT_EQ(report->differ, 1u);
+  ASSERT_EQ(report->lines.size(), 2u);
+  EXPECT_THAT(report->lines.back(), HasSubstr("written by ringcraft 0.0.9"));
+}
+
 TEST(HitReplay, OneChangedDigitOfAnOutcomeIsFound) {
   for (const char* key : {"\"head_spin_radps\":", "\"damage\":", "\"direction_rad\":",
                           "\"impulse_Ns\":", "\"steps\":", "\"point\":["}) {
