@@ -120,9 +120,11 @@ FighterId Bout::nearest_opponent(FighterId id) const {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     const FighterId other(i);
     if (!enemies(id, other)) continue;
-    // Somebody knocked out is an opponent only where nobody else is left.
-    const float distance =
-        glm::distance(place(id), place(other)) + (is_out(other) ? 1000.0f : 0.0f);
+    // Who may not be struck where it lies is an opponent only where nobody else stands, who is out
+    // only where nobody else is left.
+    const bool spared = state_.fighters[i].down() && !scene_.planner.hits_on_downed;
+    const float later = is_out(other) ? 2000.0f : spared ? 1000.0f : 0.0f;  // m
+    const float distance = glm::distance(place(id), place(other)) + later;
     if (!nearest.valid() || distance < least) {
       nearest = other;
       least = distance;
@@ -539,8 +541,11 @@ void Bout::push_apart() {
     for (std::size_t j = i + 1; j < state_.fighters.size(); ++j) {
       const FighterId a(i), b(j);
       const auto excepted = [&](FighterId id) {
+        const Tick age = fighter(id).launch.clip_age(state_.now);
         std::uint32_t parts = 0;
-        for (const Strike& strike : action_of(id).strikes) parts |= striking_parts(strike);
+        for (const Strike& strike : action_of(id).strikes) {
+          if (age < strike.active_end) parts |= striking_parts(strike);
+        }
         return parts;
       };
       const Penetration deepest = deepest_penetration(stage_.swept(a).after, stage_.swept(b).after,

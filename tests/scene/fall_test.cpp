@@ -96,6 +96,38 @@ TEST(Fall, NobodyThrowsTheRestOfACombinationAtWhoFalls) {
   EXPECT_GT(held_back, 0);
 }
 
+// Whom nobody may strike where it lies is left alone while somebody else stands.
+TEST(Fall, WhoFightsSeveralTurnsToThoseThatStand) {
+  int turned = 0;  // decisions of others while one is down
+  for (std::uint64_t seed = 1; seed <= 12 && turned == 0; ++seed) {
+    SceneFile scene = crowd(seed, .5f);
+    scene.duration = 6 * kTicksPerSecond;
+    scene.fighters.resize(3);
+    for (std::size_t i = 0; i < 3; ++i) {  // a giant among light ones, whom no blow puts out
+      scene.fighters[i].team = static_cast<int>(i);
+      scene.fighters[i].body.mass = i == 0 ? 130.0f : 45.0f;
+      scene.fighters[i].body.toughness = 10;
+      scene.fighters[i].health = 100'000'000;
+    }
+    const FightRecord record = simulate_fight(default_library(), scene);
+    const auto down = [&](FighterId id, Tick tick) {
+      const auto& segments = record.timeline.tracks[id.at()].segments;
+      return std::any_of(segments.begin(), segments.end(), [&](const Segment& segment) {
+        const Action& action = default_library().action(segment.launch.action);
+        const bool lies = action.ends_lying != Lying::none || action.kind == Kind::get_up;
+        return lies && segment.launch.start < tick && tick < segment.launch.end;
+      });
+    };
+    for (const Event& event : record.timeline.events) {
+      if (event.type != EventType::decision) continue;
+      const FighterId third(3 - event.who.at() - event.whom.at());
+      EXPECT_FALSE(down(event.whom, event.tick) && !down(third, event.tick)) << event.tick;
+      turned += down(third, event.tick) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(turned, 0);
+}
+
 TEST(Fall, NobodyIsHitByAFallThatIsOutOfReach) {
   int falls = 0;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
