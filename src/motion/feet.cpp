@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "motion/ik.h"
 
@@ -141,6 +142,19 @@ bool Feet::stands_still(const Foot& foot) const {
          glm::distance(foot.ball, foot.ball_before) < kStill * kTickSeconds;
 }
 
+// What kept a foot off the place where it stands (the range of its ankle) may be over at a seam: it
+// stands where it is, or slides to rest from there.
+void Feet::stand_as_shown(Foot& foot) const {
+  constexpr float kOff = .005f;  // m
+  const float floor = ball_floor(skeleton_, foot.shown);
+  const Vec3 off = foot.ball - foot.place - kUp * floor - foot.offset.value();
+  if (glm::length(off) < kOff) return;
+  const Vec3 moved = on_ground(foot.ball - foot.ball_before), slides = moved / kTickSeconds;
+  const Vec3 stops = slides * (settings_.land_seconds / 3);
+  foot.place = on_ground(foot.ball) + moved + stops;
+  foot.offset = {kUp * (foot.ball.y - floor) - stops, slides, settings_.land_seconds};
+}
+
 void Feet::stitch_foot(Side side, const Seam& seam) {
   const auto& [shown, now, after, seconds, simulated, hips_turn] = seam;
   Foot& foot = of(side);
@@ -164,7 +178,7 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
   foot.by_joints = simulated && !stands_still(foot);
   foot.lift = {};
-  if (foot.mode == Mode::held) return;
+  if (foot.mode == Mode::held) return stand_as_shown(foot);
   foot.led_before = foot.ball_before;  // as it was amended
   foot.led = foot.ball;
   const Vec3 moved = foot.led - foot.led_before;
@@ -178,7 +192,9 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   } else {
     // Its goal has moved: no less time than that takes at kFootAcceleration (blend_of).
     const float needed = std::sqrt(5.8f * glm::length(on_ground(offset)) / kFootAcceleration);
-    begin_move(foot, Mode::step, offset, velocity,
+    const Vec3 goal = on_ground(now.position[ball]) + kUp * ball_floor(skeleton_, foot.shown);
+    begin_move(foot, Mode::step, foot.led + moved - goal,
+               (moved - on_ground(clip_moved)) / kTickSeconds,
                std::max({foot.offset.seconds_left(), settings_.land_seconds, needed}));
   }
 }
@@ -269,6 +285,7 @@ void Feet::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
   const Vec3 velocity = foot.moved() / kTickSeconds;
   const float astray = glm::distance(on_ground(carried), on_ground(clip_ball));
   const float height = carried.y - floor;
+  const bool strained = std::exchange(foot.strained, false);
 
   // 0. A leg goes on by its joints until it is near where the clip puts it down and could stop
   // there; of a body that lies, until it is there.
@@ -290,10 +307,12 @@ void Feet::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
     stand(foot, floor);
     return;
   }
-  // 3. Left behind: a step of its own, while the other foot carries or where the leg is too short.
+  // 3. Left behind: a step of its own, while the other foot carries or where the leg is too short
+  // or at the end of its range.
   const bool other_carries = stands(other_foot) && since_step_ > kBetweenSteps;
-  const bool left_behind = foot.mode == Mode::held && astray > settings_.restep_distance &&
-                           (other_carries || foot.sink > kMostSink);
+  const bool left_behind =
+      foot.mode == Mode::held && (strained || (astray > settings_.restep_distance &&
+                                               (other_carries || foot.sink > kMostSink)));
   if (planted && (foot.mode == Mode::swing || left_behind)) {
     const Vec3 goal = on_ground(clip_ball) + kUp * floor;
     begin_move(foot, Mode::step, carried - goal, velocity - on_ground(clip_velocity),

@@ -35,6 +35,10 @@ class Feet {
   void show(const WorldPose& world);
   void amend(const WorldPose& world);
 
+  // The leg of a foot that stands will be at the end of a joint's range soon: it takes a step of
+  // its own in the next tick.
+  void strain(Side side) { of(side).strained = true; }
+
   // A foot that stands `offset`, m on the ground, off where it was led.
   void stand_aside(Side side, Vec3 offset);
 
@@ -65,6 +69,7 @@ class Feet {
     Decay offset;            // of the ball to where it is going
     Decay turn;              // of the foot's world rotation to the clip's
     bool by_joints = false;  // swings as the leg's joints take it
+    bool strained = false;   // its leg is near the end of its range
     float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
@@ -98,6 +103,7 @@ class Feet {
   void stitch_foot(Side side, const Seam& seam);
   void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
   void stand(Foot& foot, float floor) const;
+  void stand_as_shown(Foot& foot) const;
   bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);

@@ -37,6 +37,7 @@ class Playback {
   // A foot that has been set down and still presses down stands `offset`, m on the ground, off
   // where it was led: something outside stood there. It goes on from where it is shown.
   void stand_aside(Side side, Vec3 offset) { feet_.stand_aside(side, offset); }
+  void strain(Side side) { feet_.strain(side); }  // as of Feet
   bool presses_down(Side side) const { return feet_.presses_down(side); }
 
   const Pose& shown() const { return shown_; }          // last shown

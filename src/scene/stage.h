@@ -107,6 +107,7 @@ class Stage {
 
   void free_joints(Actor& actor, Tick tick) const;
   bool go_on(const Actor& actor, Tick tick, Motion& motion) const;
+  static void relieve_feet(const Pose& clip, Playback& playback);
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);

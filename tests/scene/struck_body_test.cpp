@@ -189,11 +189,25 @@ TEST(StruckBodies, ALegInTheAirIsNotThrownByTheKneeOfItsClip) {
   EXPECT_LT(jump, 3.0f);
 }
 
-// Where the next action begins, arms come back bent.
+// A foot that stands where its leg comes to the end of its range steps before, and is not torn off.
+TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
+  const HitAnswer answer = answer_to_case(
+      {"step_forward_left", .25435505, Part::chest, {-42.22151f, 0, 45.560688f}, .68010616f});
+  EXPECT_LT(velocity_jump(answer, 60, 100), 1.5f);
+}
+
+// Where the next action begins, arms come back bent, and a foot that its ankle kept off its place
+// stands where it is.
 TEST(StruckBodies, GoOnFromTheirAnswerWithoutAPop) {
   const std::vector<StruckCase> cases{
       {"guard_2", .096, Part::left_upper_arm, {61.877f, 0, 30.140f}, .726f},
-      {"guard_1", .237, Part::left_upper_arm, {43.579f, 0, 73.929f}, .668f}};
+      {"guard_1", .237, Part::left_upper_arm, {43.579f, 0, 73.929f}, .668f},
+      {"roundhouse_rear_low",
+       .42108933,
+       Part::right_thigh,
+       {54.885242f, 0, -3.9854646f},
+       .6142331f},
+      {"roundhouse_rear_low", .25878227, Part::left_thigh, {28.367569f, 0, 17.05246f}, .6767378f}};
   for (const StruckCase& c : cases) {
     const HitAnswer answer = answer_to_case(c);
     const Tick begins =
