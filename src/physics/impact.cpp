@@ -185,7 +185,7 @@ float swept_by(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& r
          (only ? kSwept / 2 : kSwept) * body.spec.height / 1.78f;
 }
 
-// The leg that carries the body alone, where that is the one the blow meets.
+// Whether the blow meets the leg that alone carries the body.
 bool strikes_standing_leg(const ImpactFrame& frame) {
   const FootContacts& contacts = frame.contacts();
   const Part part = frame.blow().part;

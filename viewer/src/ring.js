@@ -99,10 +99,12 @@ export function makeRing(inside) {
   const size = inside + 2 * APRON;
   const half = inside / 2;
 
-  const canvas = new Mesh(new PlaneGeometry(size, size).rotateX(-Math.PI / 2),
+  // In tiles: a software renderer that clips a large triangle at the near plane may lose its depth.
+  const tiles = Math.ceil(size / 0.5);
+  const canvas = new Mesh(new PlaneGeometry(size, size, tiles, tiles).rotateX(-Math.PI / 2),
     new MeshStandardMaterial({ map: canvasTexture(size), roughness: 0.95 }));
   canvas.receiveShadow = true;
-  const skirt = new Mesh(new BoxGeometry(size, PLATFORM, size),
+  const skirt = new Mesh(new BoxGeometry(size, PLATFORM, size, tiles, 1, tiles),
     new MeshStandardMaterial({ color: '#141a26', roughness: 0.85 }));
   skirt.position.y = -PLATFORM / 2 - 0.004;
   ring.add(canvas, skirt, hallFloor());
