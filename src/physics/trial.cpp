@@ -5,6 +5,7 @@
 #include "physics/impact_frame.h"
 
 namespace ringcraft {
+
 Standing simulate_standing(const BodyModel& body, const ImpactInput& input, float seconds) {
   const ImpactFrame frame(body, input);
   Ragdoll ragdoll(body, frame.pose(), frame.before(), kTickSeconds);
