@@ -36,7 +36,7 @@ double protects(DefenseKind kind, TargetZone zone) {
 }
 
 constexpr double kNoRopes = 1e6;   // m: so far away that nobody comes near them
-constexpr double kFeintWorth = 3;  // points of the blow that follows, where the feint is answered
+constexpr double kFeintWorth = 3;  // points that a feint is expected to bring who takes another in
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
 const AimLimit kOtherLimit{std::sin(kMostAim), std::cos(kMostAim)};
@@ -77,19 +77,6 @@ float roams_from(const InFlight& flight, Tick now) {
     farthest = std::max(farthest, x * x + z * z);
   }
   return std::sqrt(farthest) + kRounding;
-}
-
-// How likely the opponent is, by what was seen of it, to answer what looks like an attack with a
-// defense there.
-double answers_attacks(const Habits& habits, const MotionLibrary& library, float distance,
-                       Kind last) {
-  const Situation situation = situation_of(distance, last, true);
-  int defenses = 0;
-  for (const Habits::Seen& seen : habits.seen(situation)) {
-    if (library.action(seen.action).kind == Kind::defense) defenses += seen.count;
-  }
-  const int total = habits.total(situation);
-  return total == 0 ? 0 : Habits::belief(total) * defenses / total;
 }
 
 }  // namespace
@@ -289,14 +276,6 @@ void Duel::score_candidates(const Node& node, int who) {
   std::array<std::size_t, kChoices> choices{};  // how many of each
   float least_turned = -2, least_out = std::numeric_limits<float>::max();
   Scored spare{}, held{};
-  double feint = 0;  // points that a feint is expected to bring
-  if (who == 0 && setup_->habits != nullptr) {
-    const InFlight& other = node.side[1].flight;
-    const Vec3 apart = aspect.opponent_now - Vec3(aspect.end.x, 0, aspect.end.z);
-    feint = kFeintWorth * setup_->learning *
-            answers_attacks(*setup_->habits, own.tables->library(), std::hypot(apart.x, apart.z),
-                            other.table->action->kind);
-  }
   const std::span<const NextAction> all = self.flight.table->next;
   const std::span<const NextLanes> lanes = self.flight.table->next_lanes;
   then_x_.resize(lanes.size()), then_z_.resize(lanes.size());
@@ -344,13 +323,12 @@ void Duel::score_candidates(const Node& node, int who) {
       ++choices[static_cast<std::size_t>(in.choice[lane])];
     }
   }
-  Scored* feigned = nullptr;  // the best feint: one is enough to weigh
-  for (std::size_t i = 0; feint > 0 && i < count; ++i) {
-    Scored& one = scored_[i];
-    if (!one.next->table->action->feint) continue;
-    if (feigned == nullptr || one.score > feigned->score) feigned = &one;
+  if (const auto& feint = setup_->feint; feint && who == 0 && feint->start == node.now) {
+    for (Scored& one : std::span(scored_).first(count)) {
+      if (one.next->to == feint->feint && one.next->lead == 0)
+        one.score += thousandths(kFeintWorth);
+    }
   }
-  if (feigned != nullptr) feigned->score += thousandths(feint);
   if (count == 0 && spare.next == nullptr) spare = held;
   if (count == 0 && spare.next != nullptr) {
     scored_[count++] = spare;
@@ -360,6 +338,19 @@ void Duel::score_candidates(const Node& node, int who) {
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
   pick_candidates(most, choices, !aspect.threats.empty());
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
+  if (who == 1 && setup_->feint) foresee_taken_in(node);
+}
+
+// Who is taken in by a feint does what it would do about the attack, and knows no better.
+void Duel::foresee_taken_in(const Node& node) {
+  const FeintAnswer& feint = *setup_->feint;
+  const Launch& met = node.side[0].flight.launch;
+  if (feint.feint != met.action || feint.start != met.start || feint.acts != node.now) return;
+  const auto answer = std::find_if(scored_.begin(), scored_.end(),
+                                   [&](const Scored& one) { return one.next->to == feint.answer; });
+  if (answer == scored_.end()) return;
+  counts_.candidates += picked_.size() - 1;
+  picked_.assign(1, *answer);
 }
 
 // What the opponent was seen to do in such a situation takes the place of what it could do: the

@@ -6,6 +6,7 @@
 // do what they have already begun: obstacles and threats.
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "planner/bearings.h"
@@ -73,11 +74,21 @@ struct SideSetup {
   std::span<const std::int32_t> clean_damage;
 };
 
+// What side 1 is expected to do about a feint that side 0 begins at the root, where it must act
+// before it can tell the feint from its attack: what it would do about the attack.
+struct FeintAnswer {
+  ActionId feint;   // of side 0
+  Tick start = 0;   // when it begins
+  Tick acts = 0;    // when side 1 must act
+  ActionId answer;  // what it chooses then
+};
+
 struct DuelSetup {
   std::array<SideSetup, 2> side;
   LeafFactors factors;
-  const Habits* habits = nullptr;  // of side 1, where side 0 learns
-  double learning = 0;             // Style::learning of side 0
+  const Habits* habits = nullptr;    // of side 1, where side 0 learns
+  double learning = 0;               // Style::learning of side 0
+  std::optional<FeintAnswer> feint;  // one that would take side 1 in
   PlanSettings settings;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
@@ -233,6 +244,7 @@ class Duel {
   void pick_candidates(std::size_t most, const std::array<std::size_t, kChoices>& choices,
                        bool threatened);
   void foresee_habit(const Node& node, std::size_t most);
+  void foresee_taken_in(const Node& node);
 };
 static_assert(Game<Duel>);
 

@@ -20,6 +20,14 @@ bool looks_like_attack(const Action& action, const Launch& launch, Tick now, dou
   return action.attacks() && now < launch.when(action.strikes.back().active_end);
 }
 
+Launch taken_for(const Launch& feint, ActionId id, const Action& attack, Tick now) {
+  Launch seen = feint;
+  seen.action = id;
+  seen.pace = {};  // nobody sees how fast what is not thrown would have come
+  seen.end = std::max(now, seen.when(attack.length()));
+  return seen;
+}
+
 std::size_t Habits::index_of(Situation situation) {
   const std::size_t calm = situation.band * kAfter + situation.after;
   return calm + (situation.attacked ? kBands * kAfter : 0);

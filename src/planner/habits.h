@@ -25,6 +25,9 @@ Situation situation_of(float distance, Kind last, bool attacked);
 // one who sees it `late_sight_s` late: an attack, or a feint that nobody can tell from one yet.
 bool looks_like_attack(const Action& action, const Launch& launch, Tick now, double late_sight_s);
 
+// A feint's launch as who is taken in sees it at `now`: the attack's own, at its usual speed.
+Launch taken_for(const Launch& feint, ActionId id, const Action& attack, Tick now);
+
 // Counts of one fighter. Constant inside a search.
 class Habits {
  public:

@@ -31,6 +31,11 @@ ActionId attack_of(const MotionLibrary& library, const Action& feint) {
   return {};
 }
 
+// Whether a fighter of that style no longer falls for what an opponent of those habits feigns.
+bool sees_through(const Style& style, const Habits& opponent, ActionId attack) {
+  return style.learning * opponent.feint_expected(attack) > 0.5;
+}
+
 }  // namespace
 
 struct Planner::Inside {
@@ -73,12 +78,16 @@ struct Planner::Inside {
     FightState state;
     DuelSetup setup;
   };
+  std::optional<FeintAnswer> feint_of(const FightState& state, FighterId fighter,
+                                      FighterId opponent, Tick last_contact) const;
   // Nothing where there is nobody to fight.
-  std::optional<View> view(const FightState& truth, FighterId fighter, Tick last_contact) const {
+  std::optional<View> view(const FightState& truth, FighterId fighter, Tick last_contact,
+                           bool weigh_feints = true) const {
     const FighterId opponent = opponent_of(truth, fighter);
     if (!opponent.valid()) return std::nullopt;
     FightState seen = as_seen(truth, fighter, opponent);
     DuelSetup duel = setup(seen, fighter, opponent, last_contact);
+    if (weigh_feints) duel.feint = feint_of(seen, fighter, opponent, last_contact);
     return View{opponent, std::move(seen), std::move(duel)};
   }
 };
@@ -175,11 +184,52 @@ FightState Planner::Inside::as_seen(const FightState& state, FighterId fighter,
       !looks_like_attack(library.action(launch.action), launch, state.now, style.late_sight_s)) {
     return seen;
   }
-  if (style.learning * habits[opponent.at()].feint_expected(attack) > 0.5) return seen;
-  launch.action = attack;
-  launch.pace = {};  // nobody sees how fast what is not thrown would have come
-  launch.end = std::max(state.now, launch.when(library.action(attack).length()));
+  if (sees_through(style, habits[opponent.at()], attack)) return seen;
+  launch = taken_for(launch, attack, library.action(attack), state.now);
   return seen;
+}
+
+// The feint that `fighter` could begin now and that would take its opponent in, with what the
+// opponent's own plan against the attack is: who feints puts itself in the other's place. Of
+// several the one that was used least, for each costs a search.
+std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, FighterId fighter,
+                                                     FighterId opponent, Tick last_contact) const {
+  const Launch& self = state.fighters[fighter.at()].launch;
+  const FighterState& other = state.fighters[opponent.at()];
+  const Tick acts = other.launch.end;
+  if (acts < state.now || other.balance == 2) return std::nullopt;
+  const MotionTables& own = *tables[static_cast<std::size_t>(body_of[fighter.at()])];
+  const float scale = own.body().scale;
+  const Style& theirs = contenders[opponent.at()].style;
+  const float their_scale = tables[static_cast<std::size_t>(body_of[opponent.at()])]->body().scale;
+  const Vec3 target = root_at(library, other.launch, state.now, their_scale).position();
+  const float apart = glm::distance(root_at(library, self, state.now, scale).position(), target);
+  const std::vector<double>& used = use[fighter.at()];
+  std::optional<Launch> best;
+  for (const NextAction& next : own.at(self.action).next) {
+    const ActionId attack = feigned[next.to.at()];
+    if (!attack.valid() || !next.path.empty()) continue;
+    if (sees_through(theirs, habits[fighter.at()], attack)) continue;
+    const std::vector<StrikeTable>& strikes = own.at(attack).strikes;
+    const bool reaches = std::any_of(strikes.begin(), strikes.end(), [&](const StrikeTable& one) {
+      return one.reach + kMostGap > apart;
+    });
+    const Launch feint = following(library, self, next.to, state.now, target, scale, kMostAim);
+    if (!reaches || !looks_like_attack(library.action(next.to), feint, acts, theirs.late_sight_s)) {
+      continue;
+    }
+    if (!best || used[next.to.at()] < used[best->action.at()]) best = feint;
+  }
+  if (!best) return std::nullopt;
+  const ActionId attack = feigned[best->action.at()];
+  FightState then = state;
+  then.now = acts;
+  then.fighters[fighter.at()].launch = taken_for(*best, attack, library.action(attack), acts);
+  const DuelSetup against = setup(then, opponent, fighter, last_contact);
+  SearchPool<Duel> pool;
+  const Searched searched = search_ahead(against, then, SoftChoice(0, 0), {}, pool);
+  if (searched.roots.empty()) return std::nullopt;
+  return FeintAnswer{best->action, state.now, acts, searched.roots.front().move.action};
 }
 
 SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet) const {
@@ -269,7 +319,8 @@ Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact
                    const PlanLimits& limits) {
   Inside& in = *inside_;
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
-  const std::optional<Inside::View> view = in.view(truth, fighter, last_contact);
+  // Another's plan is a search of its own: there is no time for it under a limit.
+  const std::optional<Inside::View> view = in.view(truth, fighter, last_contact, !limits.any());
   if (!view) return resting(in.library, truth, fighter, scale);
   const FightState& state = view->state;
   const DuelSetup& setup = view->setup;

@@ -9,6 +9,7 @@
 #include "planner/duel_fixture.h"
 #include "planner/habits.h"
 #include "planner/impact_store.h"
+#include "planner/tree.h"
 
 namespace ringcraft {
 namespace {
@@ -246,6 +247,138 @@ TEST_F(ConditionTest, AFeintIsTakenForItsAttack) {
   EXPECT_EQ(score(feint, 6), score(hook, 6));
   for (int i = 0; i < 20; ++i) planner.note_habit(facing(0.8f), FighterId(1), feint);
   EXPECT_NE(score(feint, 6), score(hook, 6));
+}
+
+// The tree of one who feints, against an opponent that is taken in.
+class FeignedTest : public DuelFixture {
+ protected:
+  static const MotionLibrary& with() {
+    static const std::vector<std::string> names{"hook"};
+    static const MotionLibrary kWith = with_feints(library(), names);
+    return kWith;
+  }
+  static const MotionTables& own_tables() {
+    static const MotionTables kTables(with(), make_body({}));
+    return kTables;
+  }
+
+  FeignedTest() {
+    clean_damage_.assign(own_tables().strike_count(), 5000);
+    for (SideSetup& side : setup_.side) {
+      side.tables = &own_tables();
+      side.launch.assign(with().actions().size(), 0);
+      side.clean_damage = clean_damage_;
+    }
+  }
+
+  ActionId feint_ = with().find("hook_feint"), step_ = with().find("step_back");
+};
+
+TEST_F(FeignedTest, WhoIsTakenInDoesWhatIsExpectedOfIt) {
+  const auto answers = [&] {
+    FightState state = facing(0.8f);
+    Launch& launch = state.fighters[0].launch;
+    launch.action = feint_;
+    launch.start = -6;
+    Duel game(setup_, 200);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[0].flight.launch.end = launch.start + with().action(feint_).length();
+    std::vector<DuelMove> moves;
+    game.moves(node, moves);
+    std::vector<ActionId> actions;
+    actions.reserve(moves.size());
+    for (const DuelMove& move : moves) actions.push_back(move.side == 1 ? move.action : ActionId{});
+    return actions;
+  };
+  const std::vector<ActionId> usual = answers();
+  ASSERT_GT(usual.size(), 2u);
+  setup_.feint = FeintAnswer{feint_, -6, 0, step_};
+  EXPECT_EQ(answers(), std::vector<ActionId>{step_});
+  setup_.feint = FeintAnswer{feint_, -5, 0, step_};  // another feint
+  EXPECT_EQ(answers(), usual);
+  setup_.feint = FeintAnswer{feint_, -6, 1, step_};  // it acts at another time
+  EXPECT_EQ(answers(), usual);
+}
+
+TEST_F(FeignedTest, AFeintThatTakesInIsWeighed) {
+  const auto place = [&] {  // in the list; its size where it is not there
+    Duel game(setup_, 200);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, facing(0.8f, 12)), moves);
+    const auto at = std::find_if(moves.begin(), moves.end(),
+                                 [&](const DuelMove& move) { return move.action == feint_; });
+    return at - moves.begin();
+  };
+  const auto before = place();
+  EXPECT_GT(before, 0);
+  setup_.feint = FeintAnswer{feint_, 0, 12, step_};
+  EXPECT_EQ(place(), 0);
+  setup_.feint = FeintAnswer{feint_, 5, 12, step_};
+  EXPECT_EQ(place(), before);
+}
+
+TEST_F(FeignedTest, AlphaBetaStaysMinimax) {
+  ImpactMemo memo({&own_tables()});
+  setup_.memo = &memo;
+  style_.candidates = 4;
+  std::uint64_t all = 0, visited = 0;
+  int feints = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const FightState state = random_state(seed);
+    setup_.feint = FeintAnswer{feint_, 0, state.fighters[1].launch.end, step_};
+    Duel game(setup_, 110);
+    const DuelNode root = Duel::root(setup_, state);
+    std::vector<DuelMove> line;
+    game.moves(root, line);
+    feints += std::any_of(line.begin(), line.end(),
+                          [&](const DuelMove& move) { return move.action == feint_; });
+    SearchCounts counts;
+    const std::int32_t truth = minimax(game, root, counts);
+    Search<Duel> search(SearchSettings{});
+    EXPECT_EQ(search.run(game, root, kWorst, kBest, line), truth) << seed;
+    all += counts.nodes;
+    visited += search.counts().nodes;
+  }
+  EXPECT_LT(visited, all / 2);
+  EXPECT_GT(feints, 0);
+}
+
+// What the tree expects of who is taken in is what it then does; of who need not act in time, or
+// has learned better, nothing is expected.
+TEST_F(FeignedTest, ThePlanKnowsWhatTheOtherWillDo) {
+  Style style;
+  style.horizon_s = 0.8;
+  style.temperature = 0;
+  Style student = style;
+  student.learning = 1;
+  PlanSettings settings;
+  settings.node_limit = 0;
+  const auto store = std::make_shared<ImpactStore>();
+  const auto expected = [&](Planner& planner, const FightState& state) {
+    const DecisionTree tree = planner.tree(state, FighterId(0), 0, 96, 200);
+    std::vector<std::string> answers;
+    for (const int child : tree.nodes[0].children) {
+      if (tree.nodes[static_cast<std::size_t>(child)].edge.action != "hook_feint") continue;
+      for (const int answer : tree.nodes[static_cast<std::size_t>(child)].children) {
+        answers.push_back(tree.nodes[static_cast<std::size_t>(answer)].edge.action);
+      }
+    }
+    return answers;
+  };
+  Planner planner(with(), {{make_body({}), style}, {make_body({}), student}}, settings, 5, store);
+  for (const float distance : {0.8f, 0.85f, 0.9f}) {
+    const FightState state = facing(distance, 12);
+    FightState then = state;
+    then.now = 12;
+    then.fighters[0].launch =
+        following(with(), state.fighters[0].launch, feint_, 0, {0, 0, distance / 2}, 1, kMostAim);
+    const ActionId answer = planner.plan(then, FighterId(1), 0).launch.action;
+    EXPECT_EQ(expected(planner, state), std::vector{with().action(answer).name}) << distance;
+  }
+  const Tick seen_until = with().action(feint_).feint->parted + ticks(style.late_sight_s);
+  EXPECT_NE(expected(planner, facing(0.8f, seen_until)).size(), 1u);
+  for (int i = 0; i < 20; ++i) planner.note_habit(facing(0.8f), FighterId(0), feint_);
+  EXPECT_NE(expected(planner, facing(0.8f, 12)).size(), 1u);
 }
 
 }  // namespace
