@@ -197,7 +197,8 @@ std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, Fi
   const Launch& self = state.fighters[fighter.at()].launch;
   const FighterState& other = state.fighters[opponent.at()];
   const Tick acts = other.launch.end;
-  if (acts < state.now || other.balance == 2) return std::nullopt;
+  const bool watches = opponent_of(state, opponent) == fighter && other.balance != 2;
+  if (!watches || acts < state.now) return std::nullopt;
   const MotionTables& own = *tables[static_cast<std::size_t>(body_of[fighter.at()])];
   const float scale = own.body().scale;
   const Style& theirs = contenders[opponent.at()].style;
