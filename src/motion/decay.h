@@ -1,6 +1,8 @@
 #pragma once
 // What is left of a difference at a seam, and how it falls to nothing.
 
+#include <optional>
+
 #include "motion/pose.h"
 
 namespace ringcraft {
@@ -45,7 +47,10 @@ struct BodyTurn {
   Vec3 left() const { return yaw.value() + lean.value(); }
   void step(float dt);
 };
-BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds, bool simulated);
+// After a simulation, which may leave it facing anywhere, it takes up to `longest` s, so that it
+// does not whirl round.
+BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
+                   std::optional<float> longest);
 
 // The same of a limb's root, as `root_turns` (joint_turns.h).
 Decay root_decay(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& before,

@@ -156,11 +156,11 @@ void Feet::stand_as_shown(Foot& foot) const {
 }
 
 void Feet::stitch_foot(Side side, const Seam& seam) {
-  const auto& [shown, now, after, seconds, simulated, hips_turn] = seam;
+  const auto& [shown, now, after, seconds, turn_seconds, simulated, hips_turn] = seam;
   Foot& foot = of(side);
   const std::size_t end = index(leg(side).end), ball = index(toes(side));
   foot.turn = rotation_decay(foot.shown_before, foot.shown, now.rotation[end], after.rotation[end],
-                             seconds, 0, hips_turn);
+                             turn_seconds, 0, hips_turn);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
   Knee& knee = foot.knee;  // what it was eased by is part of what is shown

@@ -18,9 +18,10 @@ class Feet {
   // From the next tick on they follow `now`, and `after` one tick later.
   struct Seam {
     const WorldPose &shown, &now, &after;
-    float seconds;   // in which the difference falls to nothing
-    bool simulated;  // the pose shown last was
-    Vec3 hips_turn;  // left of the hips' turn to the clip's, a rotation vector
+    float seconds;       // in which the difference falls to nothing
+    float turn_seconds;  // the same of where the body faces
+    bool simulated;      // the pose shown last was
+    Vec3 hips_turn;      // left of the hips' turn to the clip's, a rotation vector
   };
   void stitch(const Seam& seam);
 

@@ -108,7 +108,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const float trunk =
       simulated_ && !feet_.lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
   turn_ = body_turn(before_.rotation[0], shown_.rotation[0], now.rotation[0], after.rotation[0],
-                    seconds, simulated_);
+                    seconds, simulated_ ? std::optional(settings_.longest_blend) : std::nullopt);
   for (std::size_t j = 1; j < kJointCount; ++j) {
     const bool of_trunk = j <= index(Joint::head);
     rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
@@ -124,7 +124,8 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
-  feet_.stitch({shown, world_now, world_after, seconds, simulated_, turn_.left()});
+  feet_.stitch(
+      {shown, world_now, world_after, seconds, turn_.yaw.seconds_left(), simulated_, turn_.left()});
   for (const Side side : kSides) {
     const std::size_t hand = index(arm(side).end);
     const Vec3 hand_moved = shown.position[hand] - before.position[hand];

@@ -11,6 +11,7 @@ namespace {
 constexpr float kFlungSpin = 60;   // rad/s: as fast as limbs are shown
 constexpr float kCaughtSpin = 7;   // rad/s: as fast as they turn when they have been caught
 constexpr float kCaughtBend = 5;   // rad/s: and bend
+constexpr float kCaughtHips = 8;   // rad/s: as fast as the hips take them along
 constexpr float kCaughtEnd = 5;    // m/s about the hips: as fast as their ends go then
 constexpr float kFlung = .03f;     // s: until then struck limbs fly as they do
 constexpr float kCaughtBy = .10f;  // s: by then they are caught
@@ -62,10 +63,18 @@ void FlungLimbs::slow_end(Side side, const Limb& limb, float caught, Pose& pose)
   go_on(side, limb, glm::mix(1.0f, share, caught), last_, pose);
 }
 
+void FlungLimbs::slow_hips(float most, Pose& pose) const {
+  Quat& now = pose.rotation[index(Joint::hips)];
+  const Quat was = last_.rotation[index(Joint::hips)];
+  const float turn = glm::length(rotation_vector(now * glm::conjugate(was)));
+  if (turn > most) now = glm::normalize(glm::slerp(was, in_hemisphere_of(now, was), most / turn));
+}
+
 void FlungLimbs::slow(float seconds, Pose& pose) {
   const float caught = glm::smoothstep(kFlung, kCaughtBy, seconds);
   const float turns = glm::mix(kFlungSpin, kCaughtSpin, caught) * kTickSeconds;
   const float bends = glm::mix(kFlungSpin, kCaughtBend, caught) * kTickSeconds;
+  slow_hips(glm::mix(kFlungSpin, kCaughtHips, caught) * kTickSeconds, pose);
   for (const Side side : {Side::left, Side::right}) {
     slow_limb(side, arm(side), turns, bends, last_, pose);
     slow_end(side, arm(side), caught, pose);

@@ -689,6 +689,30 @@ TEST(Playback, AFootTurnsTheWayRoundItsBodyDoes) {
   }
 }
 
+// A body that was left facing elsewhere comes round as fast as fighters turn, however far that is,
+// and faces as its clip does in the end.
+TEST(Playback, ABodyThatFacesElsewhereDoesNotWhirlRound) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  for (const float off : {60.0f, 100.0f, 140.0f, -140.0f}) {
+    Playback playback(kSkeleton);
+    Shown shown;
+    for (int i = 0; i < 5; ++i) {
+      playback.next_simulated(placed(idle.at(0), {0, 0, radians(off)}));
+      shown.add(playback);
+    }
+    play(playback, idle, {}, 160, shown);
+    float fastest = 0;  // rad/s
+    for (std::size_t t = 1; t < shown.size(); ++t) {
+      const float turned = wrapped_angle(heading_of(shown.poses[t].rotation[0]) -
+                                         heading_of(shown.poses[t - 1].rotation[0]));
+      fastest = std::max(fastest, std::abs(turned) * kTicksPerSecond);
+    }
+    EXPECT_LT(fastest, 8.1f) << off;
+    EXPECT_NEAR(heading_of(shown.poses.back().rotation[0]), heading_of(idle.at(0).rotation[0]),
+                1e-3f);
+  }
+}
+
 // A leg that swings through where the clip puts its foot down goes on by its joints: led there, it
 // would be thrown past and pulled straight.
 TEST(Playback, ALegThatSwingsThroughItsPlaceDoesNotJerk) {

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "physics/braking.h"
+#include "physics/flung_limbs.h"
 #include "physics/hit.h"
 #include "physics/impact.h"
 #include "physics/ragdoll.h"
@@ -227,6 +228,25 @@ TEST_F(Shown, NoHitExplodes) {
     }
     EXPECT_LT(fastest_joint(poses), 45) << i;
   }
+}
+
+// Hips that a kicking leg takes along turn as they are thrown while limbs fly, and once these are
+// caught no faster than fighters turn, whatever the simulation does.
+TEST(FlungLimbs, HipsComeRoundNoFasterThanFightersTurn) {
+  const BodyModel body = make_body({});
+  Hit hit(body, stance::fighting(body), Part::abdomen, {0, 0, 5});
+  const ImpactFrame frame(body, hit.input);
+  const auto turned = [&](float seconds, float rate) {
+    FlungLimbs limbs(body, frame);
+    Pose pose = placed(frame.pose(), {0, 0, rate * kTickSeconds});
+    limbs.slow(seconds, pose);
+    const Quat turn = pose.rotation[0] * glm::conjugate(frame.pose().rotation[0]);
+    return glm::length(rotation_vector(turn)) * kTicksPerSecond;
+  };
+  EXPECT_NEAR(turned(.02f, 12), 12, .01f);
+  EXPECT_NEAR(turned(.10f, 12), 8, .01f);
+  EXPECT_NEAR(turned(.15f, -20), 8, .01f);
+  EXPECT_NEAR(turned(.15f, 7), 7, .01f);
 }
 
 // A whole body turned by 13 rad/s is down to what fighters turn with by themselves before the clip
