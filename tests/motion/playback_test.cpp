@@ -689,8 +689,8 @@ TEST(Playback, AFootTurnsTheWayRoundItsBodyDoes) {
   }
 }
 
-// A body that was left facing elsewhere comes round as fast as fighters turn, however far that is,
-// and faces as its clip does in the end.
+// A body that was left at rest and facing elsewhere comes round no faster than fighters turn, and
+// faces as its clip does in the end.
 TEST(Playback, ABodyThatFacesElsewhereDoesNotWhirlRound) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   for (const float off : {60.0f, 100.0f, 140.0f, -140.0f}) {
