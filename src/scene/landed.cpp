@@ -9,6 +9,7 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kPresses = 18;  // 0.15 s: then the limb goes on, as fast as one that comes free
+constexpr float kSoft = .25f;  // m
 
 }  // namespace
 
@@ -25,13 +26,21 @@ void LandedLimb::step() {
   if (++age_ > kPresses) most_ += kComingFree * kTickSeconds;
 }
 
-Vec3 LandedLimb::held_back(Vec3 end) const {
-  return holds() ? -std::max(0.0f, glm::dot(end, line_) - most_) * line_ : Vec3{};
-}
-
-void LandedLimb::let_go_behind(Vec3 end) {
+// Where the clip is p beyond the plane and has been k, the limb is -(p - k)^2 / 4k beyond it for p
+// between k and -k: a parabola from rest at the plane to the clip's own way behind it.
+Vec3 LandedLimb::hold_back(Vec3 end) {
   constexpr float kBack = .01f;  // m
-  if (holds() && glm::dot(end, line_) < most_ - kBack) *this = {};
+  if (!holds()) return {};
+  const float past = glm::dot(end, line_) - most_;
+  deepest_ = std::clamp(past, deepest_, kSoft);
+  if (past < -std::max(kBack, deepest_)) {
+    *this = {};
+    return {};
+  }
+  const float to_go = deepest_ - past;
+  if (to_go <= 0) return -past * line_;
+  if (deepest_ <= 0) return {};
+  return (-to_go * to_go / (4 * deepest_) - past) * line_;
 }
 
 }  // namespace ringcraft

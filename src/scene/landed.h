@@ -8,7 +8,9 @@ namespace ringcraft {
 
 // The plane, across the line of the blow, that the end of a striking limb does not pass: where it
 // was at the contact. In the 12 ms of a blow the glove gives its momentum away; what the clip has
-// left of the way, through an opponent who was not there at its capture, is not gone.
+// left of the way, through an opponent who was not there at its capture, is not gone. Its clip
+// takes it along again as it comes back, gradually: a limb that waited for it would be snatched
+// away.
 class LandedLimb {
  public:
   LandedLimb() = default;
@@ -17,15 +19,15 @@ class LandedLimb {
   LandedLimb(const BodyModel& body, const Limb& limb, const Pose& before, const Pose& after,
              const Contact& contact);
 
-  void step();                     // one tick
-  Vec3 held_back(Vec3 end) const;  // the offset, m, that keeps the end there
-  void let_go_behind(Vec3 end);    // a limb that is on its way back is free
+  void step();               // one tick
+  Vec3 hold_back(Vec3 end);  // the offset, m, that keeps the end there; frees a limb that is back
   bool holds() const { return age_ >= 0; }
 
  private:
-  Vec3 line_{};     // of the blow, a unit vector
-  float most_ = 0;  // m along the line from the origin
-  Tick age_ = -1;   // since the contact; below 0: holds nothing
+  Vec3 line_{};        // of the blow, a unit vector
+  float most_ = 0;     // m along the line from the origin
+  float deepest_ = 0;  // m beyond it that the clip was, up to kSoft
+  Tick age_ = -1;      // since the contact; below 0: holds nothing
 };
 
 }  // namespace ringcraft

@@ -133,9 +133,7 @@ Pose Stage::stopped(const BodyModel& body, Motion& motion, const Pose& pose) {
   if (held.left) landed[2] = {};
   if (held.right) landed[3] = {};
   for (std::size_t i = 0; i < landed.size(); ++i) {
-    const Vec3 end = world.position[index(kArmsAndLegs[i].end)];
-    offsets[i] = landed[i].held_back(end);
-    landed[i].let_go_behind(end);
+    offsets[i] = landed[i].hold_back(world.position[index(kArmsAndLegs[i].end)]);
   }
   return with_offsets(body, pose, offsets);
 }

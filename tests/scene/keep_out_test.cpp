@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "base/ticks.h"
 #include "motion/ik.h"
@@ -125,32 +127,53 @@ class Landed : public KeepOut {
 };
 
 TEST_F(Landed, TheLimbGoesNoFartherThanTheContact) {
-  const LandedLimb limb = landed();
+  LandedLimb limb = landed();
   EXPECT_TRUE(limb.holds());
-  EXPECT_NEAR(limb.held_back(glove + Vec3{0, 0, .06f}).z, -.02f, 1e-4f);
-  EXPECT_NEAR(limb.held_back(glove + Vec3{.3f, .1f, .50f}).z, -.46f, 1e-4f);
-  EXPECT_EQ(limb.held_back(glove + Vec3{.3f, .1f, .03f}), Vec3{});  // on its way back
-  EXPECT_EQ(LandedLimb().held_back(glove), Vec3{});
+  EXPECT_NEAR(limb.hold_back(glove + Vec3{0, 0, .06f}).z, -.02f, 1e-4f);
+  EXPECT_NEAR(limb.hold_back(glove + Vec3{.3f, .1f, .50f}).z, -.46f, 1e-4f);
+  EXPECT_EQ(LandedLimb().hold_back(glove), Vec3{});
 }
 
 TEST_F(Landed, ALimbThatIsOnItsWayBackIsFree) {
   LandedLimb limb = landed();
-  limb.let_go_behind(glove + Vec3{0, 0, .035f});
+  EXPECT_EQ(limb.hold_back(glove + Vec3{0, 0, .035f}), Vec3{});
   EXPECT_TRUE(limb.holds());
-  limb.let_go_behind(glove + Vec3{0, 0, .02f});
+  EXPECT_EQ(limb.hold_back(glove + Vec3{0, 0, .02f}), Vec3{});
   EXPECT_FALSE(limb.holds());
+}
+
+// A limb that waits at the plane until its clip is back there goes on with the clip's speed at
+// once.
+TEST_F(Landed, TheClipTakesTheLimbAlongGradually) {
+  constexpr float kSpeed = 6, kFarthest = .25f;  // m/s, m beyond the contact
+  LandedLimb limb = landed();
+  std::vector<float> shown{.04f};  // m along the blow, one a tick from the contact on
+  float clip = .04f;
+  for (Tick tick = 1; limb.holds() && tick < kTicksPerSecond; ++tick) {
+    const float way = kSpeed * kTickSeconds * static_cast<float>(tick);
+    clip = .04f + kFarthest - std::abs(way - kFarthest);
+    shown.push_back(clip + limb.hold_back(glove + Vec3{0, 0, clip}).z);
+    EXPECT_LE(shown.back(), std::min(.04f, clip) + 1e-5f) << tick;  // not into what it struck
+  }
+  EXPECT_FALSE(limb.holds());
+  EXPECT_EQ(shown.back(), clip);
+  float jumps = 0;  // m/s, between frames at 60 Hz
+  for (std::size_t i = 4; i < shown.size(); ++i) {
+    jumps = std::max(jumps, 60 * std::abs(shown[i] - 2 * shown[i - 2] + shown[i - 4]));
+  }
+  EXPECT_LT(jumps, 1.5);
 }
 
 // One that swings through, as a kick does, is let go slowly.
 TEST_F(Landed, ALimbThatPressesOnComesFreeAfterAWhile) {
   LandedLimb limb = landed();
   const Vec3 wanted = glove + Vec3{0, 0, .2f};
-  const float first = limb.held_back(wanted).z;
+  const float first = limb.hold_back(wanted).z;
   float before = first;
   Tick still = 0, all = 0;
-  for (; limb.held_back(wanted) != Vec3{} && all < kTicksPerSecond; ++all) {
+  for (; glm::length(limb.hold_back(wanted)) > .01f && all < kTicksPerSecond; ++all) {
     limb.step();
-    const float now = limb.held_back(wanted).z;
+    const float now = limb.hold_back(wanted).z;
     EXPECT_LE(now - before, kComingFree * kTickSeconds + 1e-5f);
     if (now == first) ++still;
     before = now;
