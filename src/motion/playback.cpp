@@ -29,17 +29,17 @@ float Playback::blend_of(const Pose& now, const Pose& after,
                          const std::array<bool, 2>& arms_by_joints) const {
   // m/s2: of a limb that goes where it should be; a body that lies has the time, and between two
   // clips nothing is to be caught up with
-  const float most_acceleration = feet_.lies() ? 14.0f : simulated_ ? 25.0f : 20.0f;
+  const float most_acceleration = feet_.lies() ? 14.0f : catches_up_ ? 25.0f : 20.0f;
   float seconds = settings_.blend_seconds;
   for (const Side side : kSides) {
     if (arms_by_joints[static_cast<std::size_t>(side)]) {
       seconds = std::max(seconds, swing_seconds(side, arm(side), now, most_acceleration));
     }
-    if (simulated_ && feet_.lies()) {
+    if (catches_up_ && feet_.lies()) {
       seconds = std::max(seconds, swing_seconds(side, leg(side), now, most_acceleration));
     }
   }
-  if (!simulated_) return seconds;
+  if (!catches_up_) return seconds;
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
   const WorldPose clip = world_pose(skeleton_, now), clip_next = world_pose(skeleton_, after);
   for (std::size_t j = 0; j < kJointCount; ++j) {
@@ -85,7 +85,7 @@ float Playback::swing_seconds(Side side, const Limb& limb, const Pose& now,
 // The hips of a body that is up are back sooner than its farthest limb: legs that go where the clip
 // has them, from hips that lag behind, would be pulled straight.
 Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
-  if (!simulated_) return {offset, velocity, blend_seconds_};
+  if (!catches_up_) return {offset, velocity, blend_seconds_};
   float seconds = blend_seconds_;
   if (!feet_.lies()) {
     constexpr float kMostAcceleration = 12;  // m/s2
@@ -98,6 +98,10 @@ Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
 
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
+  // What has more left than a blend takes, as after a simulation, goes on as from one.
+  const float left =
+      std::max(turn_.lean.seconds_left(), rotation_[index(Joint::spine)].seconds_left());
+  catches_up_ = simulated_ || left > settings_.blend_seconds;
   const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
                                               arm_by_joints(Side::right, now)};
   const float seconds = blend_seconds_ = blend_of(now, after, arms_by_joints);
@@ -106,20 +110,20 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const Vec3 hips_velocity = (moved - clip_moved) / kTickSeconds;
   hips_ = hips_decay(shown_.hips + moved - now.hips, hips_velocity);
   const float trunk =
-      simulated_ && !feet_.lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
+      catches_up_ && !feet_.lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
   turn_ = body_turn(before_.rotation[0], shown_.rotation[0], now.rotation[0], after.rotation[0],
-                    seconds, simulated_ ? std::optional(settings_.longest_blend) : std::nullopt);
+                    seconds, catches_up_ ? std::optional(settings_.longest_blend) : std::nullopt);
   for (std::size_t j = 1; j < kJointCount; ++j) {
     const bool of_trunk = j <= index(Joint::head);
     rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
                                   after.rotation[j], of_trunk ? trunk : seconds,
-                                  simulated_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
+                                  catches_up_ ? lever_of(skeleton_, joint_at(j)) : 0.0f);
   }
   hinges_.fill({});
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     if (arms_by_joints[i]) stitch_hinge(arm(side), now, after);
-    if (simulated_) stitch_hinge(leg(side), now, after);
+    if (catches_up_) stitch_hinge(leg(side), now, after);
   }
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
@@ -205,7 +209,7 @@ void Playback::set_shown(const Pose& pose) {
 // Led by the hand, the elbow of an arm that comes from a simulation would turn over, and so would
 // one that is bent before and after, or whose hand passes nearer to its shoulder than it is then.
 bool Playback::arm_by_joints(Side side, const Pose& now) const {
-  if (simulated_) return true;
+  if (catches_up_) return true;
   constexpr float kPassesNear = .8f;
   constexpr float kBent = .68f;  // of the arm's length: a hand so near to its shoulder
   const auto hand = [&](const Pose& pose) {

@@ -67,6 +67,7 @@ class Playback {
   Pose shown_, before_;
   bool started_ = false;
   bool simulated_ = false;                         // the pose shown last was simulated
+  bool catches_up_ = false;                        // since the last seam, with a simulation
   float blend_seconds_ = 0.24f;                    // of the last seam
   BodyTurn turn_;                                  // of the hips
   std::array<Decay, kJointCount> rotation_;        // of the joints above and below them

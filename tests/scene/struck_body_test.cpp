@@ -196,8 +196,8 @@ TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
   EXPECT_LT(velocity_jump(answer, 60, 100), 1.5f);
 }
 
-// Where the next action begins, arms come back bent, and a foot that its ankle kept off its place
-// stands where it is.
+// Where the next action begins, arms come back bent, a foot that its ankle kept off its place
+// stands where it is, and a trunk that is still far from upright takes its time.
 TEST(StruckBodies, GoOnFromTheirAnswerWithoutAPop) {
   const std::vector<StruckCase> cases{
       {"guard_2", .096, Part::left_upper_arm, {61.877f, 0, 30.140f}, .726f},
@@ -207,7 +207,12 @@ TEST(StruckBodies, GoOnFromTheirAnswerWithoutAPop) {
        Part::right_thigh,
        {54.885242f, 0, -3.9854646f},
        .6142331f},
-      {"roundhouse_rear_low", .25878227, Part::left_thigh, {28.367569f, 0, 17.05246f}, .6767378f}};
+      {"roundhouse_rear_low", .25878227, Part::left_thigh, {28.367569f, 0, 17.05246f}, .6767378f},
+      {"roundhouse_rear_middle_near",
+       .40730617,
+       Part::left_thigh,
+       {13.927633f, 0, -.6516973f},
+       .6403924f}};
   for (const StruckCase& c : cases) {
     const HitAnswer answer = answer_to_case(c);
     const Tick begins =
