@@ -112,7 +112,6 @@ void BodyTurn::step(float dt) {
 BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
                    std::optional<float> longest) {
   constexpr float kCarries = .15f;  // s: a spin goes on so far at least
-  constexpr float kFastest = 8;     // rad/s: of a body that turns to where it should face
   constexpr float kReach = .71f;    // m: what turns with the hips reaches so far
   const Quat carried = glm::normalize(shown * glm::inverse(before) * shown);
   const YawAndLean was(shown), is(carried), clip(now), next(after);
@@ -126,7 +125,7 @@ BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
   const float off = wrapped_angle(is.yaw - clip.yaw + on) - on;
   // A quintic over T s goes by d with at most 1.875 d / T.
   const float turns =
-      std::max(seconds, std::min(longest.value_or(0), 1.875f * std::abs(off) / kFastest));
+      std::max(seconds, std::min(longest.value_or(0), 1.875f * std::abs(off) / kFastestTurn));
   return {{kUp * off, kUp * yaw_velocity, turns, stops(kUp * yaw_velocity)},
           {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)}};
 }

@@ -27,6 +27,9 @@ class Decay {
   float seconds_ = 0, velocity_seconds_ = 0, age_ = 0;
 };
 
+// rad/s about the vertical, as fast as fighters turn: a spin beyond it is braked.
+inline constexpr float kFastestTurn = 8;
+
 // How far, m, what hangs on a joint reaches from it.
 float lever_of(const Skeleton& skeleton, Joint joint);
 

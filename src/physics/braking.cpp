@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/decay.h"
+
 namespace ringcraft {
 namespace {
 
 constexpr float kSetsIn = .03f;        // s after the blow: the legs are stiff already
 constexpr float kFull = .10f;          // s
 constexpr float kDeceleration = 6.0f;  // m/s2: of a foot that is planted to stop
-constexpr float kFastestSpin = 8;      // rad/s about the vertical
 constexpr float kSpinBrake = 60;       // rad/s2
 constexpr float kOnFloor = .03f;       // m: a sole that is higher brakes nothing
 
@@ -41,7 +42,7 @@ void Braking::brake(Ragdoll& ragdoll, float seconds) {
 }
 
 void Braking::brake_spin(Ragdoll& ragdoll, float seconds) {
-  const float spin = ragdoll.yaw_rate(), beyond = std::abs(spin) - kFastestSpin;
+  const float spin = ragdoll.yaw_rate(), beyond = std::abs(spin) - kFastestTurn;
   if (beyond <= 0) return;
   const float most = kSpinBrake * glm::smoothstep(kSetsIn, kFull, seconds) * kRagdollStep;
   ragdoll.turn_faster(std::copysign(std::min(beyond, most), -spin));

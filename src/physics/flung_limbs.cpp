@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "motion/decay.h"
 #include "motion/ik.h"
 #include "motion/joint_turns.h"
 
@@ -11,31 +12,36 @@ namespace {
 constexpr float kFlungSpin = 60;   // rad/s: as fast as limbs are shown
 constexpr float kCaughtSpin = 7;   // rad/s: as fast as they turn when they have been caught
 constexpr float kCaughtBend = 5;   // rad/s: and bend
-constexpr float kCaughtHips = 8;   // rad/s: as fast as the hips take them along
 constexpr float kCaughtEnd = 5;    // m/s about the hips: as fast as their ends go then
 constexpr float kFlung = .03f;     // s: until then struck limbs fly as they do
 constexpr float kCaughtBy = .10f;  // s: by then they are caught
 
+Quat between(Quat was, Quat now, float share) {
+  return glm::normalize(glm::slerp(was, in_hemisphere_of(now, was), share));
+}
+
+// The share of its way that a joint may go where it turns by no more than `most`, rad.
+float share_within(float most, Quat was, Quat now) {
+  const float turn = glm::length(rotation_vector(now * glm::conjugate(was)));
+  return turn > most ? most / turn : 1.0f;
+}
+
 // The limb `share` of its way on from where it was.
 void go_on(Side side, const Limb& limb, float share, const Pose& last, Pose& pose) {
   Quat &root = pose.rotation[index(limb.root)], &middle = pose.rotation[index(limb.middle)];
-  const Quat was = last.rotation[index(limb.middle)];
   root = mix_root(side, limb, last.rotation[index(limb.root)], root, share);
-  middle = glm::normalize(glm::slerp(was, in_hemisphere_of(middle, was), share));
+  middle = between(last.rotation[index(limb.middle)], middle, share);
 }
 
 // The limb turns by no more than `turns` and bends by no more than `bends`, rad.
 void slow_limb(Side side, const Limb& limb, float turns, float bends, const Pose& last,
                Pose& pose) {
   for (const Joint joint : {limb.root, limb.middle}) {
-    const float most = joint == limb.root ? turns : bends;
     Quat& now = pose.rotation[index(joint)];
     const Quat was = last.rotation[index(joint)];
-    const float turn = glm::length(rotation_vector(now * glm::conjugate(was)));
-    if (turn <= most) continue;
-    now = joint == limb.root
-              ? mix_root(side, limb, was, now, most / turn)
-              : glm::normalize(glm::slerp(was, in_hemisphere_of(now, was), most / turn));
+    const float share = share_within(joint == limb.root ? turns : bends, was, now);
+    if (share >= 1) continue;
+    now = joint == limb.root ? mix_root(side, limb, was, now, share) : between(was, now, share);
   }
 }
 
@@ -66,15 +72,15 @@ void FlungLimbs::slow_end(Side side, const Limb& limb, float caught, Pose& pose)
 void FlungLimbs::slow_hips(float most, Pose& pose) const {
   Quat& now = pose.rotation[index(Joint::hips)];
   const Quat was = last_.rotation[index(Joint::hips)];
-  const float turn = glm::length(rotation_vector(now * glm::conjugate(was)));
-  if (turn > most) now = glm::normalize(glm::slerp(was, in_hemisphere_of(now, was), most / turn));
+  const float share = share_within(most, was, now);
+  if (share < 1) now = between(was, now, share);
 }
 
 void FlungLimbs::slow(float seconds, Pose& pose) {
   const float caught = glm::smoothstep(kFlung, kCaughtBy, seconds);
   const float turns = glm::mix(kFlungSpin, kCaughtSpin, caught) * kTickSeconds;
   const float bends = glm::mix(kFlungSpin, kCaughtBend, caught) * kTickSeconds;
-  slow_hips(glm::mix(kFlungSpin, kCaughtHips, caught) * kTickSeconds, pose);
+  slow_hips(glm::mix(kFlungSpin, kFastestTurn, caught) * kTickSeconds, pose);
   for (const Side side : {Side::left, Side::right}) {
     slow_limb(side, arm(side), turns, bends, last_, pose);
     slow_end(side, arm(side), caught, pose);
