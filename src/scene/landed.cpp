@@ -8,8 +8,10 @@
 namespace ringcraft {
 namespace {
 
-constexpr Tick kPresses = 18;  // 0.15 s: then the limb goes on, as fast as one that comes free
-constexpr float kSoft = .25f;  // m
+constexpr Tick kPresses = 18;     // 0.15 s: then the limb goes on, as fast as one that comes free
+constexpr float kGradual = .25f;  // m
+constexpr float kBack = .01f;     // m behind the plane: a limb that is on its way back
+constexpr float kFades = .1f;     // s in which what is left of the offset goes
 
 }  // namespace
 
@@ -22,6 +24,7 @@ LandedLimb::LandedLimb(const BodyModel& body, const Limb& limb, const Pose& befo
 }
 
 void LandedLimb::step() {
+  left_.step(kTickSeconds);
   if (!holds()) return;
   if (++age_ > kPresses) most_ += kComingFree * kTickSeconds;
 }
@@ -29,18 +32,19 @@ void LandedLimb::step() {
 // Where the clip is p beyond the plane and has been k, the limb is -(p - k)^2 / 4k beyond it for p
 // between k and -k: a parabola from rest at the plane to the clip's own way behind it.
 Vec3 LandedLimb::hold_back(Vec3 end) {
-  constexpr float kBack = .01f;  // m
-  if (!holds()) return {};
+  if (!holds()) return left_.value();
   const float past = glm::dot(end, line_) - most_;
-  deepest_ = std::clamp(past, deepest_, kSoft);
-  if (past < -std::max(kBack, deepest_)) {
+  const bool sets_out = past_ < -kBack && past > past_;
+  past_ = past;
+  deepest_ = std::clamp(past, deepest_, kGradual);
+  const float to_go = std::clamp(deepest_ - past, 0.0f, 2 * deepest_);
+  const float shown = deepest_ > 0 ? -to_go * to_go / (4 * deepest_) : 0.0f;
+  const Vec3 offset = std::min(0.0f, shown - past) * line_;
+  if (sets_out || past < -std::max(kBack, deepest_)) {
     *this = {};
-    return {};
+    left_ = Decay(offset, Vec3{}, kFades);
   }
-  const float to_go = deepest_ - past;
-  if (to_go <= 0) return -past * line_;
-  if (deepest_ <= 0) return {};
-  return (-to_go * to_go / (4 * deepest_) - past) * line_;
+  return offset;
 }
 
 }  // namespace ringcraft

@@ -1,6 +1,7 @@
 #pragma once
 // A limb that has landed a blow goes no farther into what it struck.
 
+#include "motion/decay.h"
 #include "physics/contact.h"
 #include "scene/keep_out.h"
 
@@ -19,15 +20,18 @@ class LandedLimb {
   LandedLimb(const BodyModel& body, const Limb& limb, const Pose& before, const Pose& after,
              const Contact& contact);
 
-  void step();               // one tick
-  Vec3 hold_back(Vec3 end);  // the offset, m, that keeps the end there; frees a limb that is back
+  void step();  // one tick
+  // The offset, m, that keeps the end there, or what is left of it once the limb is free.
+  Vec3 hold_back(Vec3 end);
   bool holds() const { return age_ >= 0; }
 
  private:
   Vec3 line_{};        // of the blow, a unit vector
   float most_ = 0;     // m along the line from the origin
-  float deepest_ = 0;  // m beyond it that the clip was, up to kSoft
+  float deepest_ = 0;  // m beyond it that the clip was, up to kGradual
+  float past_ = 0;     // m beyond it that the clip was last
   Tick age_ = -1;      // since the contact; below 0: holds nothing
+  Decay left_;
 };
 
 }  // namespace ringcraft

@@ -164,6 +164,29 @@ TEST_F(Landed, TheClipTakesTheLimbAlongGradually) {
   EXPECT_LT(jumps, 1.5);
 }
 
+// Its next blow begins while the glove is still on its way back, and is not stopped where the other
+// was.
+TEST_F(Landed, ALimbThatStrikesAgainIsFree) {
+  LandedLimb limb = landed();
+  float clip = .04f, shown = .04f;  // m along the blow
+  const auto go = [&](float to) {
+    constexpr float kStep = 3 * kTickSeconds;
+    while (std::abs(to - clip) > kStep) {
+      clip += std::copysign(kStep, to - clip);
+      limb.step();
+      shown = clip + limb.hold_back(glove + Vec3{0, 0, clip}).z;
+    }
+  };
+  go(.20f);
+  EXPECT_NEAR(shown, .04f, 1e-4f);
+  go(-.06f);
+  EXPECT_TRUE(limb.holds());
+  EXPECT_LT(shown, clip - .001f);
+  go(.40f);
+  EXPECT_FALSE(limb.holds());
+  EXPECT_NEAR(shown, clip, 1e-4f);
+}
+
 // One that swings through, as a kick does, is let go slowly.
 TEST_F(Landed, ALimbThatPressesOnComesFreeAfterAWhile) {
   LandedLimb limb = landed();
