@@ -118,9 +118,14 @@ void Stage::land(FighterId fighter, const Contact& contact) {
   const auto limb = limb_of(contact.striker);
   if (!limb) return;
   Motion& motion = actor.motion;
-  motion.landed[*limb] = LandedLimb(actor.body, kArmsAndLegs[*limb], motion.playback.shown_before(),
-                                    motion.playback.shown(), contact);
-  motion.unhindered = stopped(actor.body, motion, motion.unhindered);
+  LandedLimb& landed = motion.landed[*limb];
+  landed = LandedLimb(actor.body, kArmsAndLegs[*limb], motion.playback.shown_before(),
+                      motion.playback.shown(), contact);
+  // The others are held back in this tick already.
+  const WorldPose world = world_pose(actor.body.skeleton, motion.unhindered);
+  LimbOffsets offsets{};
+  offsets[*limb] = landed.hold_back(world.position[index(kArmsAndLegs[*limb].end)]);
+  motion.unhindered = with_offsets(actor.body, motion.unhindered, offsets);
 }
 
 // The pose with the limbs that have landed no farther than they were then. A leg that carries is
