@@ -4,6 +4,7 @@
 
 #include "base/ticks.h"
 #include "motion/ik.h"
+#include "motion/joint_turns.h"
 #include "physics/penetration.h"
 
 namespace ringcraft {
@@ -56,7 +57,8 @@ void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
 }  // namespace
 
 LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
-                     std::span<const BodyCapsules> others, const LimbOffsets& now) {
+                     std::span<const BodyCapsules> others, const LimbOffsets& now,
+                     const std::function<Pose(const Pose&)>& as_shown) {
   LimbOffsets offsets;
   const Vec3 away = pose.rotation[0] * -kForward;
   for (std::size_t m = 0; m < kParts.size(); ++m) {
@@ -69,7 +71,8 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
     for (int round = 0; round < kRounds && !clear; ++round) {
       clear = true;
       for (const Part part : kParts[m]) {
-        const BodyCapsules own = capsules(body, world_pose(body.skeleton, moved));
+        const Pose shown = is_leg(kArmsAndLegs[m]) ? as_shown(moved) : moved;
+        const BodyCapsules own = capsules(body, world_pose(body.skeleton, shown));
         const Vec3 way = way_out(own[index(part)], others, away);
         if (way == Vec3{}) continue;
         clear = false;

@@ -2,6 +2,7 @@
 // Arms and free legs stay out of the other bodies: what is shown never sinks into what it struck.
 
 #include <array>
+#include <functional>
 #include <span>
 
 #include "motion/clip.h"
@@ -22,11 +23,14 @@ inline constexpr std::array<float, 4> kMostKeptOut = {0.30f, 0.30f, 0.35f, 0.35f
 // One tick on from `now`: limbs come back to their motion, no faster than kComingFree, as far as
 // hands, forearms, and feet and shins that are not `held`, stay out of the `others`, each limb held
 // off by at most its kMostKeptOut and going there no faster than kGoingOut. On the side on which it
-// is: none passes through another.
+// is: none passes through another. A leg has to be clear in the pose that is shown of it,
+// `as_shown`: inverse kinematics may fold it as its ranges forbid. An arm's ranges are wide, and
+// one that is asked the same is thrown to and fro between the other body and the end of its range.
 inline constexpr float kComingFree = 1.5f;  // m/s
 inline constexpr float kGoingOut = 12.0f;   // m/s
 LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
-                     std::span<const BodyCapsules> others, const LimbOffsets& now);
+                     std::span<const BodyCapsules> others, const LimbOffsets& now,
+                     const std::function<Pose(const Pose&)>& as_shown = std::identity{});
 
 // `pose` with the ends of its limbs moved by the offsets, by two-link IK.
 Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets);

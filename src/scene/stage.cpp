@@ -227,13 +227,17 @@ void Stage::free_joints(Actor& actor, Tick tick) const {
   }
 }
 
-void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
-  actor.kept_out = offsets;
+Pose Stage::in_range(const Actor& actor, const Pose& pose) {
   LimitExcesses simulated;  // mended already
   simulated.fill(kLimitTolerance);
-  actor.motion.playback.amend(limited(
-      actor.body, with_offsets(actor.body, actor.motion.unhindered, offsets),
-      actor.motion.playback.shown_before(), actor.motion.simulated ? simulated : actor.free));
+  return limited(actor.body, pose, actor.motion.playback.shown_before(),
+                 actor.motion.simulated ? simulated : actor.free);
+}
+
+void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
+  actor.kept_out = offsets;
+  actor.motion.playback.amend(
+      in_range(actor, with_offsets(actor.body, actor.motion.unhindered, offsets)));
   actor.swept.after =
       capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.playback.shown()));
 }
@@ -267,8 +271,8 @@ void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
     if (&other != &actor && apart < kArmsReach * actor.body.scale)
       near.push_back(other.swept.after);
   }
-  amend(actor,
-        kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near, before));
+  amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
+                        before, [&](const Pose& pose) { return in_range(actor, pose); }));
 }
 
 // A foot that comes down where another body is stands beside it, and does not slide into it once it

@@ -110,6 +110,8 @@ class Stage {
   static void relieve_feet(const Pose& clip, Playback& playback);
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
+  // `pose` of this tick as it is shown: with its joints inside their ranges.
+  static Pose in_range(const Actor& actor, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
+#include "base/random.h"
 #include "base/ticks.h"
 #include "motion/ik.h"
+#include "physics/limits.h"
 #include "physics/penetration.h"
 #include "physics/stances.h"
 #include "scene/landed.h"
@@ -86,6 +89,55 @@ TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
     EXPECT_LE(glm::distance(before, offsets[0]), kComingFree * kTickSeconds + 1e-6f);
   }
   EXPECT_NEAR(seconds(ticks), .05 / static_cast<double>(kComingFree), .01);
+}
+
+// Bars that come upon a lifted leg from all around. Where inverse kinematics would fold the leg
+// beyond its ranges it is shown elsewhere, and there it has to be clear.
+TEST_F(KeepOut, ALimbIsClearWhereItIsShown) {
+  const LimitExcesses free = [] {
+    LimitExcesses all;
+    all.fill(radians(2));
+    return all;
+  }();
+  const auto in_range = [&](const Pose& of) {
+    return within_limits(body, of, radians(2), pose, free);
+  };
+  const Limb limb = leg(Side::left);
+  const Vec3 stands = world_pose(body.skeleton, pose).position[index(limb.end)];
+  Random random(5);
+  float asked = 0, unasked = 0;  // m, summed: how deep
+  for (int bar = 0; bar < 300; ++bar) {
+    const Vec3 to{random.uniform(-.5f, .5f), random.uniform(.1f, 1), random.uniform(-.6f, .6f)};
+    Pose lifted = pose;
+    move_limb_end(body.skeleton, limb, stands + to, 1.0f, lifted);
+    lifted = in_range(lifted);
+    const Vec3 ankle = world_pose(body.skeleton, lifted).position[index(limb.end)];
+    const Vec3 way =
+        glm::normalize(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    const Vec3 across = glm::normalize(glm::cross(way, Vec3{.3f, .8f, .52f}));
+    const auto deep_after = [&](const std::function<Pose(const Pose&)>& as_shown) {
+      LimbOffsets offsets{};
+      float depth = 0;
+      for (int tick = 0; tick <= 12; ++tick) {
+        BodyCapsules other;
+        other.fill({{0, 50, 0}, {0, 51, 0}, .05f});
+        const Vec3 at = ankle - way * (.25f - .02f * static_cast<float>(tick));
+        other[0] = {at - across * .2f, at + across * .2f, .05f};
+        offsets = kept_out(body, lifted, {false, true}, {{other}}, offsets, as_shown);
+        const BodyCapsules own = capsules(
+            body, world_pose(body.skeleton, in_range(with_offsets(body, lifted, offsets))));
+        for (const Part part : {Part::left_shin, Part::left_foot}) {
+          const Capsule& c = own[index(part)];
+          const float gap = segment_distance(c.a, c.b, other[0].a, other[0].b).distance;
+          depth = std::max(depth, c.radius + other[0].radius - gap);
+        }
+      }
+      return depth;
+    };
+    asked += deep_after(in_range);
+    unasked += deep_after(std::identity{});
+  }
+  EXPECT_LT(asked, .5f * unasked);
 }
 
 // A round kick that has landed and swings through is held where it landed, at last behind its own
