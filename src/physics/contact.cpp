@@ -15,6 +15,9 @@ constexpr float kFarther = 1e-3f;  // m: more than rounding
 // A guard that is met at most this far behind the target (m of the striker's way) still takes the
 // blow: glove and forearm are soft and wider than their capsules.
 constexpr float kGuardReach = 0.02f;
+// A guard that the striker, going straight on, would press in by less than that (m) is only
+// brushed: leather gives so far.
+constexpr float kBrushed = 0.02f;
 
 constexpr std::uint32_t kAllParts = (1u << kPartCount) - 1;
 
@@ -63,10 +66,14 @@ std::optional<Contact> first_touch(const SweptPart& striker, const SweptTarget& 
   const Vec3 moved = displacement(s0, s1, s, d.on_first) - displacement(t0, t1, t, d.on_second);
   c.velocity = moved / target.seconds;
   c.normal = normalized_or(d.on_first - d.on_second, normalized_or(-moved, kUp));
-  if (glm::dot(c.velocity, c.normal) >= 0) return std::nullopt;  // slides past or draws away
+  const float closing_speed = -glm::dot(c.velocity, c.normal);
+  if (closing_speed <= 0) return std::nullopt;  // slides past or draws away
   c.striker = striker.part;
   c.struck = struck;
   c.blocked = (target.guards & bit(struck)) != 0;
+  const float along = std::min(1.0f, closing_speed / glm::length(c.velocity));
+  const float nearest = d.distance * std::sqrt(1 - along * along);
+  if (c.blocked && reach - nearest < kBrushed) return std::nullopt;
   c.point = d.on_second + c.normal * t0.radius;
   c.share = share;
   return c;

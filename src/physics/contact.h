@@ -59,7 +59,8 @@ inline float travel(const Capsule& before, const Capsule& after) {
 }
 
 // First contact of `striker` with a part of the target in the interval, or nothing. A guard part in
-// the way is a block. Only an approaching striker makes contact.
+// the way is a block, one that is only brushed lets the blow go on. Only an approaching striker
+// makes contact.
 std::optional<Contact> strike_contact(const SweptBody& attacker, Part striker,
                                       const SweptBody& target);
 

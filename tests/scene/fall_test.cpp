@@ -103,9 +103,11 @@ TEST(Fall, WhoFightsSeveralTurnsToThoseThatStand) {
     SceneFile scene = crowd(seed, .5f);
     scene.duration = 6 * kTicksPerSecond;
     scene.fighters.resize(3);
+    scene.fighters[0].style = *style_named("aggressive");
+    scene.fighters[0].style.horizon_s = 1;
     for (std::size_t i = 0; i < 3; ++i) {  // a giant among light ones, whom no blow puts out
       scene.fighters[i].team = static_cast<int>(i);
-      scene.fighters[i].body.mass = i == 0 ? 130.0f : 45.0f;
+      scene.fighters[i].body.mass = i == 0 ? 130.0f : 40.0f;
       scene.fighters[i].body.toughness = 10;
       scene.fighters[i].health = 100'000'000;
     }
