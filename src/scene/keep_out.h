@@ -27,7 +27,7 @@ inline constexpr std::array<float, 4> kMostKeptOut = {0.30f, 0.30f, 0.35f, 0.35f
 // `as_shown`: inverse kinematics may fold it as its ranges forbid. An arm's ranges are wide, and
 // one that is asked the same is thrown to and fro between the other body and the end of its range.
 inline constexpr float kComingFree = 1.5f;  // m/s
-inline constexpr float kGoingOut = 6.0f;    // m/s
+inline constexpr float kGoingOut = 12.0f;   // m/s
 LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others, const LimbOffsets& now,
                      const std::function<Pose(const Pose&)>& as_shown = std::identity{});
