@@ -47,6 +47,12 @@ Vec3 way_out(const Capsule& part, std::span<const BodyCapsules> others, Vec3 awa
   return way;
 }
 
+// m/s: how fast the limb may be held off farther. A folded one comes round before its end is fast.
+float going_out(const WorldPose& world, const Limb& limb, Vec3 offset) {
+  const Vec3 end = world.position[index(limb.end)] + offset;
+  return std::min(kGoingOut, kTurningOut * glm::distance(end, world.position[index(limb.root)]));
+}
+
 // As little of the limb turns as that takes: a folded one does not turn over.
 void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
   const Limb& limb = kArmsAndLegs[mover];
@@ -61,12 +67,14 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      const std::function<Pose(const Pose&)>& as_shown) {
   LimbOffsets offsets;
   const Vec3 away = pose.rotation[0] * -kForward;
+  const WorldPose world = world_pose(body.skeleton, pose);
   for (std::size_t m = 0; m < kParts.size(); ++m) {
     Vec3& offset = offsets[m];
     offset = now[m] - shortened(now[m], kComingFree * kTickSeconds);
     if (others.empty() || (m == 2 && held.left) || (m == 3 && held.right)) continue;
     Pose moved = pose;
     if (offset != Vec3{}) move_end(body, m, offset, moved);
+    const float fastest = going_out(world, kArmsAndLegs[m], now[m]);
     bool clear = false;
     for (int round = 0; round < kRounds && !clear; ++round) {
       clear = true;
@@ -77,7 +85,7 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
         if (way == Vec3{}) continue;
         clear = false;
         offset = shortened(offset + way, kMostKeptOut[m]);
-        offset = now[m] + shortened(offset - now[m], kGoingOut * kTickSeconds);
+        offset = now[m] + shortened(offset - now[m], fastest * kTickSeconds);
         moved = pose;
         move_end(body, m, offset, moved);
       }

@@ -77,6 +77,32 @@ TEST_F(KeepOut, AGloveIsThrownOutNoFasterThanItMay) {
   EXPECT_LT(ticks, 5);
 }
 
+// The same, and the glove is at its own shoulder.
+TEST_F(KeepOut, AFoldedArmIsTurnedNoFasterThanItMay) {
+  const Limb limb = arm(Side::left);
+  const Vec3 shoulder = world_pose(body.skeleton, pose).position[index(limb.root)];
+  Pose folded = pose;
+  move_limb_end(body.skeleton, limb, shoulder + Vec3{0, .05f, .18f}, 1.0f, folded);
+  const auto way_to = [&](const LimbOffsets& offsets) {
+    const WorldPose world = world_pose(body.skeleton, with_offsets(body, folded, offsets));
+    return glm::normalize(world.position[index(limb.end)] - shoulder);
+  };
+  BodyCapsules other;
+  other.fill({{0, 50, 0}, {0, 51, 0}, .05f});
+  const Vec3 at = shoulder + Vec3{.05f, 0, .18f};
+  other[0] = {at - Vec3{0, 0, .3f}, at + Vec3{0, 0, .3f}, .1f};
+  LimbOffsets offsets{};
+  float turned = 0;
+  for (int tick = 0; tick < 12; ++tick) {
+    const Vec3 before = way_to(offsets);
+    offsets = kept_out(body, folded, {true, true}, {{other}}, offsets);
+    const float turn = std::acos(std::min(1.0f, glm::dot(before, way_to(offsets))));
+    EXPECT_LE(turn, 1.05f * kTurningOut * kTickSeconds) << tick;  // an arc is longer than its chord
+    turned += turn;
+  }
+  EXPECT_GT(turned, radians(20));
+}
+
 TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
   LimbOffsets offsets{};
   offsets[0] = {0, 0, -.05f};
