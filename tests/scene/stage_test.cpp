@@ -83,6 +83,41 @@ TEST_F(StageTest, ALongMotionInFlightKeepsItsLastBlow) {
   EXPECT_NEAR(table.root_at(jabs.end).z, tables.at(jabs.action).end.z, 1e-4f);
 }
 
+// Both gloves of a jab and cross are stopped. What stops the cross leaves the jab's as it is.
+TEST_F(StageTest, ASecondLimbThatLandsDoesNotHoldTheFirstTwice) {
+  Stage stage(default_library(), {make_body({})});
+  const FighterId self(0);
+  const Launch blows = launch("jab_jab_cross", 0, {});
+  stage.begin(self, blows);
+  const auto land = [&](Part striker) {
+    Contact contact;
+    contact.striker = striker;
+    contact.velocity = {0, 0, 7};
+    contact.normal = {0, 0, -1};
+    stage.land(self, contact);
+  };
+  const auto left = [&](const Stage& of) {
+    return world_pose(of.body(self).skeleton, of.shown(self)).position[index(Joint::left_hand)];
+  };
+  const Tick jab = default_library().action(blows.action).strikes[0].active_begin;
+  for (Tick t = 0; t <= jab; ++t) show(stage, t);
+  stage.show(jab + 1);
+  land(Part::left_hand);
+  stage.keep_out_and_record();
+  for (Tick t = jab + 2; t <= jab + 6; ++t) show(stage, t);
+  stage.show(jab + 7);
+  Stage without = stage;
+  land(Part::right_hand);
+  stage.keep_out_and_record();
+  without.keep_out_and_record();
+  EXPECT_LT(glm::distance(left(stage), left(without)), .001f);
+
+  Stage free(default_library(), {make_body({})});  // the blow by itself goes farther
+  free.begin(self, blows);
+  for (Tick t = 0; t <= jab + 7; ++t) show(free, t);
+  EXPECT_GT(left(free).z, left(stage).z + .05f);
+}
+
 TEST_F(StageTest, ACheckGuardsWithTheShinThatItLifts) {
   Stage stage(default_library(), {make_body({})});
   const FighterId self(0);
