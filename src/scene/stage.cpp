@@ -257,6 +257,7 @@ void Stage::keep_out_and_record() {
     if (deep) keep_out(actors_[i], before[i]);
   }
   for (Actor& actor : actors_) {
+    draw_feet_away(actor);
     set_feet_aside(actor);
     actor.track.frames.push_back(actor.motion.playback.shown());
     actor.track.contacts.push_back(actor.motion.playback.held());
@@ -273,6 +274,22 @@ void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
   }
   amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
                         before, [&](const Pose& pose) { return in_range(actor, pose); }));
+}
+
+// A foot on which a body falls does not stay under it.
+void Stage::draw_feet_away(Actor& actor) const {
+  constexpr float kPressed = .02f;  // m
+  const FootContacts held = actor.motion.playback.held();
+  for (const Actor& other : actors_) {
+    const bool falls = library_.action(other.launch.action).ends_lying != Lying::none;
+    if (&other == &actor || !other.motion.simulated || !falls) continue;
+    for (const Penetration& one : penetrations(actor.swept.after, other.swept.after, kPressed)) {
+      for (const Side side : {Side::left, Side::right}) {
+        const Part foot = side == Side::left ? Part::left_foot : Part::right_foot;
+        if (one.a == foot && held.of(side)) actor.motion.playback.strain(side);
+      }
+    }
+  }
 }
 
 // A foot that comes down where another body is stands beside it, and does not slide into it once it

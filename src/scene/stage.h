@@ -115,6 +115,7 @@ class Stage {
   static void amend(Actor& actor, const LimbOffsets& offsets);
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;
+  void draw_feet_away(Actor& actor) const;
   static void set_feet_aside(Actor& actor);
   Pose clip_pose(const Actor& actor, Tick tick) const;
 

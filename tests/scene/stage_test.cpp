@@ -211,6 +211,41 @@ TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
   EXPECT_GE(aside, 3);
 }
 
+TEST_F(StageTest, AFootThatIsFallenUponIsDrawnAway) {
+  const FighterId self(0), other(1);
+  Stage stage(default_library(), {make_body({}), make_body({})});
+  const auto capsule_of = [&](FighterId who, const Pose& pose, Part part) {
+    return capsules(stage.body(who), world_pose(stage.body(who).skeleton, pose))[index(part)];
+  };
+  stage.begin(self, launch("guard_1", 0, {}));
+  stage.begin(other, launch("guard_1", 0, {3, 3, kPi}));
+  Tick now = 0;
+  for (; now < 60 || !stage.held(self).left; ++now) show(stage, now);
+
+  // A thigh comes down upon the foot.
+  const Launch falls = launch("knockdown_back_right", now - 1, {});
+  Pose lies = pose_at(default_library(), falls, falls.end, 1);
+  const Capsule thigh = capsule_of(other, lies, Part::left_thigh);
+  const Capsule foot = capsule_of(self, stage.shown(self), Part::left_foot);
+  lies.hips += (foot.a + foot.b - thigh.a - thigh.b) / 2.0f + Vec3{0, .06f, 0};
+  constexpr Tick kDrops = 60;
+  std::vector<Pose> drops(kDrops, lies);
+  for (std::size_t t = 0; t < kDrops; ++t) {
+    drops[t].hips.y += .3f * (1 - static_cast<float>(t) / kDrops);
+  }
+  stage.begin(other, falls, drops);
+  float deepest = 0;
+  for (Tick t = 0; t < kDrops; ++t) {
+    show(stage, now + t);
+    const Capsule under = capsule_of(self, stage.shown(self), Part::left_foot);
+    const Capsule upon = capsule_of(other, stage.shown(other), Part::left_thigh);
+    deepest = std::max(deepest, under.radius + upon.radius -
+                                    segment_distance(under.a, under.b, upon.a, upon.b).distance);
+  }
+  EXPECT_GT(deepest, .015f);
+  EXPECT_LT(deepest, .03f);
+}
+
 // Two who strike at each other, nobody stopped by what he meets: who was kept out first gives way
 // again where the other one could not.
 TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
