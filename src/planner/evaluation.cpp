@@ -7,15 +7,17 @@ namespace ringcraft {
 namespace {
 
 constexpr double kBoredDistance = 0.9;  // m: boredom brings d* down to here
+constexpr double kLeastNearness = -3;   // of who are near each other
 
 }  // namespace
 
-Weights weights_at(const Style& style, double quiet) {
+Weights weights_at(const Style& style, double quiet, double apart) {
   Weights w;
   const double bored = style.boredom_rate * std::max(0.0, quiet - style.boredom_after_s);
   w.location = std::max(style.location_weight, std::min(1.0, bored));
-  w.sigma = style.distance_sigma_m;
   w.distance = std::min(style.distance_m, std::max(kBoredDistance, style.distance_m - bored));
+  w.sigma = style.distance_sigma_m;
+  w.least = kLeastNearness - 2 * std::max(0.0, (apart - w.distance) / w.sigma - 2);
   w.facing = style.facing_weight;
   w.ropes = style.ropes_weight;
   w.fight = style.fight_weight;
@@ -35,7 +37,7 @@ Weights weights_at(const Style& style, double quiet) {
 }
 
 double least_location_rate(const Weights& weights) {
-  const double farthest = kLeastNearness - kOverlapCost * kOverlapDistance;
+  const double farthest = weights.least - kOverlapCost * kOverlapDistance;
   return weights.location * farthest - weights.facing * 2 - weights.ropes;
 }
 

@@ -23,6 +23,7 @@ inline std::int32_t thousandths(double points) {
 // A style at one moment of the fight: boredom has been worked in. Constant inside a search.
 struct Weights {
   double location = 1, sigma = 0.5, distance = 0.95;  // w_l points/s, sigma m, d* m
+  double least = -3;                                  // g(d) never falls below
   double facing = 1, ropes = 1;                       // points/s
   double fight = 1, defense = 0.3, knockdown = 6;     // w_f, w_d, points
   double caution = 1.5;                               // kappa_f
@@ -32,10 +33,10 @@ struct Weights {
 };
 
 // `quiet`: seconds since the last contact. Beyond boredom_after_s a fighter comes closer, dares
-// more and likes attacks better.
-Weights weights_at(const Style& style, double quiet);
+// more and likes attacks better. `apart`: from root to root, m. However far that is, every step
+// nearer counts, also where the opponent steps back.
+Weights weights_at(const Style& style, double quiet, double apart = 0);
 
-inline constexpr double kLeastNearness = -3.0;   // g(d) never falls below
 inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 inline constexpr double kOverlapCost = 10.0;     // points/s per metre
 inline constexpr double kRopesNear = 0.8;        // m
@@ -48,7 +49,7 @@ inline constexpr float kInsideRopes = 0.2f;      // m: from the ropes to a root,
 inline double location_rate(const Weights& weights, double distance, double cosine, double to_ropes,
                             bool down = false) {
   const double wanted = weights.distance + (down ? kLyingReach : 0.0);
-  double in_reach = std::max(kLeastNearness, -std::abs(distance - wanted) / weights.sigma);
+  double in_reach = std::max(weights.least, -std::abs(distance - wanted) / weights.sigma);
   in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
   const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;

@@ -65,9 +65,11 @@ struct Planner::Inside {
          std::shared_ptr<ImpactStore> store);
   DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
                   Tick last_contact) const;
-  SideSetup side_setup(FighterId fighter, FighterId other, double quiet) const;
+  SideSetup side_setup(FighterId fighter, FighterId other, double quiet, double apart) const;
   const ActionTable* in_flight(FighterId fighter, const Launch& launch) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
+  Vec3 root_of(const FightState& state, FighterId fighter) const;
+  float apart(const FightState& state, FighterId one, FighterId other) const;  // m
   FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
   SoftChoice preference(const FightState& state, FighterId fighter) const;
@@ -158,17 +160,21 @@ FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighte
   }
   FighterId nearest;
   float least = std::numeric_limits<float>::max();
-  const auto root = [&](std::size_t i) {
-    const float scale = tables[static_cast<std::size_t>(body_of[i])]->body().scale;
-    return root_at(library, state.fighters[i].launch, state.now, scale);
-  };
-  const Placement own = root(fighter.at());
   for (std::size_t i = 0; i < state.fighters.size(); ++i) {
     if (i == fighter.at()) continue;
-    const float distance = glm::distance(own.position(), root(i).position());
+    const float distance = apart(state, fighter, FighterId(i));
     if (distance < least) least = distance, nearest = FighterId(i);
   }
   return nearest;
+}
+
+Vec3 Planner::Inside::root_of(const FightState& state, FighterId fighter) const {
+  const float scale = tables[static_cast<std::size_t>(body_of[fighter.at()])]->body().scale;
+  return root_at(library, state.fighters[fighter.at()].launch, state.now, scale).position();
+}
+
+float Planner::Inside::apart(const FightState& state, FighterId one, FighterId other) const {
+  return glm::distance(root_of(state, one), root_of(state, other));
 }
 
 // The state as `fighter` takes it to be: an opponent's feint is the attack that it begins like,
@@ -202,9 +208,8 @@ std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, Fi
   const MotionTables& own = *tables[static_cast<std::size_t>(body_of[fighter.at()])];
   const float scale = own.body().scale;
   const Style& theirs = contenders[opponent.at()].style;
-  const float their_scale = tables[static_cast<std::size_t>(body_of[opponent.at()])]->body().scale;
-  const Vec3 target = root_at(library, other.launch, state.now, their_scale).position();
-  const float apart = glm::distance(root_at(library, self, state.now, scale).position(), target);
+  const Vec3 target = root_of(state, opponent);
+  const float far = apart(state, fighter, opponent);
   const std::vector<double>& used = use[fighter.at()];
   std::optional<Launch> best;
   for (const NextAction& next : own.at(self.action).next) {
@@ -213,7 +218,7 @@ std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, Fi
     if (sees_through(theirs, habits[fighter.at()], attack)) continue;
     const std::vector<StrikeTable>& strikes = own.at(attack).strikes;
     const bool reaches = std::any_of(strikes.begin(), strikes.end(), [&](const StrikeTable& one) {
-      return one.reach + kMostGap > apart;
+      return one.reach + kMostGap > far;
     });
     const Launch feint = following(library, self, next.to, state.now, target, scale, kMostAim);
     if (!reaches || !looks_like_attack(library.action(next.to), feint, acts, theirs.late_sight_s)) {
@@ -233,13 +238,14 @@ std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, Fi
   return FeintAnswer{best->action, state.now, acts, searched.roots.front().move.action};
 }
 
-SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet) const {
+SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet,
+                                      double apart) const {
   SideSetup side;
   side.body = body_of[fighter.at()];
   side.tables = tables[static_cast<std::size_t>(side.body)].get();
   side.id = fighter;
   side.style = &contenders[fighter.at()].style;
-  side.weights = weights_at(*side.style, quiet);
+  side.weights = weights_at(*side.style, quiet, apart);
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
     const Action& action = library.actions()[i];
     const double points = launch_points(side.weights, *side.style, action, use[fighter.at()][i]);
@@ -255,9 +261,10 @@ SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double
 DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, FighterId opponent,
                                  Tick last_contact) const {
   const double quiet = seconds(std::max(0, state.now - last_contact));
+  const double far = apart(state, fighter, opponent);
   DuelSetup setup;
-  setup.side[0] = side_setup(fighter, opponent, quiet);
-  setup.side[1] = side_setup(opponent, fighter, quiet);
+  setup.side[0] = side_setup(fighter, opponent, quiet, far);
+  setup.side[1] = side_setup(opponent, fighter, quiet, far);
   for (SideSetup& side : setup.side) {
     side.in_flight = in_flight(side.id, state.fighters[side.id.at()].launch);
   }
@@ -406,17 +413,12 @@ void Planner::note_habit(const FightState& state, FighterId fighter, ActionId ac
   const Inside& in = *inside_;
   const FighterId other = in.opponent_of(state, fighter);
   if (!other.valid()) return;
-  const auto root = [&](FighterId who) {
-    const float scale = in.tables[static_cast<std::size_t>(in.body_of[who.at()])]->body().scale;
-    return root_at(in.library, state.fighters[who.at()].launch, state.now, scale).position();
-  };
   const Kind last = in.library.action(state.fighters[fighter.at()].launch.action).kind;
-  const float apart = glm::distance(root(fighter), root(other));
   const Launch& met = state.fighters[other.at()].launch;
   const bool attacked = looks_like_attack(in.library.action(met.action), met, state.now,
                                           in.contenders[fighter.at()].style.late_sight_s);
   Habits& habits = inside_->habits[fighter.at()];
-  habits.note(situation_of(apart, last, attacked), action);
+  habits.note(situation_of(in.apart(state, fighter, other), last, attacked), action);
   const ActionId feigned = in.feigned[action.at()];
   const bool attacks = in.library.action(action).attacks();
   if (attacks || feigned.valid()) habits.note_begun(feigned.valid() ? feigned : action, !attacks);

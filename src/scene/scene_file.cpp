@@ -66,12 +66,20 @@ float linear(int byte) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
+Vec3 colour_of(int rgb) {
+  return {linear(rgb >> 16), linear((rgb >> 8) & 255), linear(rgb & 255)};
+}
+
 Vec3 colour_of(const json& value) {
   if (value.is_array())
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
-  const int rgb = std::stoi(value.get<std::string>().substr(1), nullptr, 16);
-  return {linear(rgb >> 16), linear((rgb >> 8) & 255), linear(rgb & 255)};
+  return colour_of(std::stoi(value.get<std::string>().substr(1), nullptr, 16));
 }
+
+// Of shorts and gloves where the scene names none, by team: sRGB, one for each of 16 fighters.
+constexpr int kTeamColours[] = {0xb3191f, 0x1b3f94, 0x1e7a3c, 0xd0a012, 0x5b2a86, 0x14777c,
+                                0xc4600f, 0x202226, 0xc04a86, 0xd9d9d4, 0x5a3a22, 0x7d9a1e,
+                                0x4c93c9, 0x75757a, 0x6a0f22, 0x9a86c8};
 
 // A checked scene document as a SceneFile.
 class Reader {
@@ -197,6 +205,7 @@ class Reader {
         return tl::unexpected(done.error());
       }
     }
+    fighter.shorts = fighter.gloves = colour_of(team_colour(fighter.team));
     if (given.contains("shorts")) fighter.shorts = colour_of(given["shorts"]);
     if (given.contains("gloves")) fighter.gloves = colour_of(given["gloves"]);
     if (given.contains("skin")) fighter.skin = colour_of(given["skin"]);
@@ -212,6 +221,16 @@ class Reader {
       if (all[other].value("team", "") == given["team"]) first = other;
     }
     return static_cast<int>(first);
+  }
+
+  // Teams take the colours in the order in which the scene names them. `team` is the index of its
+  // first fighter.
+  int team_colour(int team) const {
+    int before = 0;
+    for (int i = 0; i < team; ++i) {
+      if (scene_.fighters[static_cast<std::size_t>(i)].team == i) ++before;
+    }
+    return kTeamColours[before];
   }
 
   Result<void> settle_placements() {

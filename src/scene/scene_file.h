@@ -23,7 +23,7 @@ struct SceneFighter {
   Placement placement;               // of the root at tick 0, world
   std::int32_t health = 100'000;     // thousandths of a point
   std::filesystem::path character;   // shown in place of the mannequin; empty for none
-  Vec3 shorts{0.7f, 0.1f, 0.1f};     // linear RGB, as in FighterLook
+  Vec3 shorts{0.7f, 0.1f, 0.1f};     // linear RGB, as in FighterLook; else the team's own colour
   Vec3 gloves{0.7f, 0.1f, 0.1f};
   Vec3 skin{0.55f, 0.36f, 0.26f};
 };

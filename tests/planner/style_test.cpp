@@ -78,6 +78,17 @@ TEST(EvaluationTest, LocationIsBestAtThePreferredDistanceFacingTheOpponent) {
   EXPECT_LE(least_location_rate(weights), location_rate(weights, 0, -1, 0));
 }
 
+TEST(EvaluationTest, HoweverFarApartAStepNearerCounts) {
+  for (const double apart : {0.5, 2.0, 4.0, 8.0, 40.0}) {
+    const Weights weights = weights_at({}, 0, apart);
+    const double nearer = std::max(weights.distance, apart - 0.5);
+    EXPECT_GE(location_rate(weights, nearer, 1, 3), location_rate(weights, apart, 1, 3));
+    EXPECT_LT(location_rate(weights, apart + 0.5, 1, 3), location_rate(weights, nearer, 1, 3));
+    EXPECT_LE(least_location_rate(weights), location_rate(weights, 100, -1, 0));
+  }
+  EXPECT_DOUBLE_EQ(location_rate(weights_at({}, 0, 1.5), 50, 1, 3), -3);  // near ones: as ever
+}
+
 TEST(EvaluationTest, WhoLiesIsGivenRoom) {
   const Weights weights = weights_at({}, 0);
   const double room = weights.distance + kLyingReach;

@@ -73,6 +73,17 @@ TEST(Fight, AHitIsAnsweredByAForcedResponseAtTheSameTick) {
   }
 }
 
+TEST(Fight, WhoStandFarApartComeTogether) {
+  const SceneFile scene = scene_of(
+      "duel", {"duration_s=6", "ring_m=14", "fighter.0.position=[0,-4]", "fighter.1.position=[0,4]",
+               "fighter.0.style=balanced", "fighter.0.horizon_s=1.25", "fighter.1.horizon_s=1.25"});
+  const FightRecord record = simulate_fight(default_library(), scene);
+  const auto hips = [&](int i) {
+    return record.timeline.tracks[static_cast<std::size_t>(i)].frames.back().hips;
+  };
+  EXPECT_LT(glm::distance(hips(0), hips(1)), 3);
+}
+
 TEST(Fight, ThreeFightersEachFaceTheirNearestOpponent) {
   const SceneFile scene = scene_of("brawl3", {"duration_s=4"});
   const FightRecord record = simulate_fight(default_library(), scene);

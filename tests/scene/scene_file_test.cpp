@@ -87,6 +87,22 @@ TEST_F(SceneFileTest, FightersFaceTheNearestOpponentNotTheNearestFriend) {
   EXPECT_NEAR(scene->fighters[3].placement.yaw, -kPi / 2, 1e-5f);
 }
 
+TEST_F(SceneFileTest, TeamsHaveColoursOfTheirOwn) {
+  std::string crowd = kHead;
+  for (int i = 0; i < 16; ++i) {
+    const std::string at = std::to_string(i - 8);
+    crowd += fighter("f" + at, "[" + at + ", 0]", i < 2 ? "team = \"x\"\n" : "");
+  }
+  const auto scene = read("ring_m = 20\n" + crowd);
+  ASSERT_TRUE(scene) << to_string(scene.error());
+  for (const SceneFighter& one : scene->fighters) {
+    EXPECT_EQ(one.shorts, one.gloves);
+    for (const SceneFighter& other : scene->fighters) {
+      EXPECT_EQ(one.shorts == other.shorts, one.team == other.team);
+    }
+  }
+}
+
 TEST_F(SceneFileTest, SetsAreDoneBeforeTheCheck) {
   const std::string text = kHead + fighter("a", "[0, -1]") + fighter("b", "[0, 1]");
   const auto scene = read(text, {"seed=9", "fighter.1.horizon_s=0.5", "duration_s=2"});
