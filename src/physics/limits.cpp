@@ -38,10 +38,10 @@ float beyond(float radians_value, Range range) {
   return std::max(radians(range.low) - radians_value, radians_value - radians(range.high));
 }
 
-// An excess that comes near to the most that may be, from `free` on ever more slowly.
+// An excess that comes near to the most that may be, braked evenly from `free` on.
 float eased_excess(float excess, float free, float most) {
-  const float room = most - free;
-  return room < 1e-4f ? most : most - room * std::exp((free - excess) / room);
+  const float room = most - free, over = excess - free;
+  return over >= 2 * room ? most : excess - over * over / (4 * room);
 }
 
 // The value brought back so that it is at most eased_excess beyond its range.
