@@ -13,8 +13,8 @@ class StandingFeet {
   StandingFeet(const BodyModel& body, const ImpactFrame& frame);
 
   // Puts the feet of the next simulated pose, one tick later, back to where they stood, by their
-  // legs. One that is swept comes off the floor and goes along, one that is lifted comes back to
-  // the simulated place.
+  // legs. One that is swept, or that its leg cannot hold inside of its ranges, comes off the
+  // floor and goes along, one that is lifted comes back to the simulated place.
   void hold(Pose& pose);
 
  private:

@@ -7,7 +7,9 @@
 #include "physics/flung_limbs.h"
 #include "physics/hit.h"
 #include "physics/impact.h"
+#include "physics/limits.h"
 #include "physics/ragdoll.h"
+#include "physics/standing_feet.h"
 
 namespace ringcraft {
 namespace {
@@ -232,6 +234,27 @@ TEST_F(Shown, NoHitExplodes) {
 
 // Hips that a kicking leg takes along turn as they are thrown while limbs fly, and once these are
 // caught no faster than fighters turn, whatever the simulation does.
+TEST_F(Shown, AFootIsHeldNoFartherThanItsLegCanTurn) {
+  const Hit hit(body, fighting, Part::head, {0, 0, -1});
+  const ImpactFrame frame(body, hit.input);
+  const auto beyond = [](const Pose& pose) {
+    const LimitExcesses all = limit_excesses(pose);
+    float most = 0;
+    for (std::size_t i = 0; i < kLimitCount; ++i) {
+      if (leg_of_limit(i)) most = std::max(most, all[i]);
+    }
+    return most;
+  };
+  StandingFeet feet(body, frame);
+  Pose pose = frame.pose();
+  for (int tick = 0; tick < 40; ++tick) {  // the body tips over, legs and all
+    pose.rotation[0] = glm::normalize(glm::angleAxis(radians(-2), kLeft) * pose.rotation[0]);
+    Pose held = pose;
+    feet.hold(held);
+    EXPECT_LT(beyond(held), radians(10)) << tick;
+  }
+}
+
 TEST(FlungLimbs, HipsComeRoundNoFasterThanFightersTurn) {
   const BodyModel body = make_body({});
   Hit hit(body, stance::fighting(body), Part::abdomen, {0, 0, 5});
