@@ -183,8 +183,10 @@ TEST(JointLimits, AJointSlowsBeforeItsLimitAndNeverPassesIt) {
     EXPECT_LE(excess_at(flexed), kMost + 1e-4f) << flexed;
     EXPECT_GE(excess_at(flexed + 1), excess_at(flexed) - 1e-4f) << flexed;
   }
-  // Where a hard stop would have a corner, it goes on at e^-1 of its pace.
-  EXPECT_NEAR(excess_at(152.5f) - excess_at(151.5f), radians(.368f), radians(.02f));
+  // Evenly: at 3/4 of its pace after a quarter of the way, at half where a hard stop would have a
+  // corner.
+  EXPECT_NEAR(excess_at(145.5f) - excess_at(144.5f), radians(.75f), radians(.02f));
+  EXPECT_NEAR(excess_at(152.5f) - excess_at(151.5f), radians(.5f), radians(.02f));
 }
 
 }  // namespace
