@@ -33,6 +33,7 @@ export class Cameras {
     });
     this.target = new Vector3(0, LOOK, 0);
     this.turned = 0;
+    this.away = 1;
   }
 
   // Metres from the target at which `width` metres across and a standing body fit the picture.
@@ -71,7 +72,8 @@ export class Cameras {
     const centre = this.aim(t);
     const axis = this.cast.axis(t, 1);
     const from = new Vector3(-axis.z, 0, axis.x).applyAxisAngle(UP, -0.38);
-    this.stage.camera.position.copy(centre).addScaledVector(from, this.distance(this.spread(t)) * 1.12);
+    this.away = this.distance(this.spread(t));
+    this.stage.camera.position.copy(centre).addScaledVector(from, this.away * 1.12);
     this.stage.camera.position.y = centre.y + 0.75;
     this.target.copy(centre);
     this.turned = this.bearing(t);
@@ -93,9 +95,12 @@ export class Cameras {
     const side = new Vector3(-axis.z, 0, axis.x);  // seen from here the first fighter stands at the left
     const away = this.distance(this.spread(t));
     if (this.name === 'follow') {
-      // Goes along and turns along: the fighters' axis stays as it lay in the picture.
+      // Goes along and turns along: the fighters' axis stays as it lay in the picture. Nearer or
+      // farther as they are.
       const bearing = this.bearing(t);
       const offset = camera.position.clone().sub(this.controls.target).applyAxisAngle(UP, bearing - this.turned);
+      offset.multiplyScalar(away / this.away);
+      this.away = away;
       this.controls.target.add(centre.clone().sub(this.target));
       camera.position.copy(this.controls.target).add(offset);
       this.target.copy(centre);
