@@ -11,12 +11,13 @@ constexpr double kLeastNearness = -3;   // of who are near each other
 
 }  // namespace
 
-Weights weights_at(const Style& style, double quiet, double apart) {
+Weights weights_at(const Style& style, double quiet, double apart, double scale) {
   Weights w;
   const double bored = style.boredom_rate * std::max(0.0, quiet - style.boredom_after_s);
   w.location = std::max(style.location_weight, std::min(1.0, bored));
-  w.distance = std::min(style.distance_m, std::max(kBoredDistance, style.distance_m - bored));
-  w.sigma = style.distance_sigma_m;
+  const double nearer = std::max(kBoredDistance, style.distance_m - bored);
+  w.distance = scale * std::min(style.distance_m, nearer);
+  w.sigma = scale * style.distance_sigma_m;
   w.least = kLeastNearness - 2 * std::max(0.0, (apart - w.distance) / w.sigma - 2);
   w.facing = style.facing_weight;
   w.ropes = style.ropes_weight;

@@ -34,8 +34,9 @@ struct Weights {
 
 // `quiet`: seconds since the last contact. Beyond boredom_after_s a fighter comes closer, dares
 // more and likes attacks better. `apart`: from root to root, m. However far that is, every step
-// nearer counts, also where the opponent steps back.
-Weights weights_at(const Style& style, double quiet, double apart = 0);
+// nearer counts, also where the opponent steps back. `scale`: of the fighter's body; a style's
+// distances are those of the canonical one.
+Weights weights_at(const Style& style, double quiet, double apart = 0, double scale = 1);
 
 inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 inline constexpr double kOverlapCost = 10.0;     // points/s per metre

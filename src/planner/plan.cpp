@@ -245,7 +245,7 @@ SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double
   side.tables = tables[static_cast<std::size_t>(side.body)].get();
   side.id = fighter;
   side.style = &contenders[fighter.at()].style;
-  side.weights = weights_at(*side.style, quiet, apart);
+  side.weights = weights_at(*side.style, quiet, apart, side.tables->body().scale);
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
     const Action& action = library.actions()[i];
     const double points = launch_points(side.weights, *side.style, action, use[fighter.at()][i]);

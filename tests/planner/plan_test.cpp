@@ -63,6 +63,21 @@ TEST_F(PlanTest, SameSeedTwiceAndAWarmMemoChangesNothing) {
   EXPECT_EQ(a.memo_counts().misses > 0, true);
 }
 
+TEST_F(PlanTest, AFighterOfHalfTheSizeStandsHalfAsFarOff) {
+  Style style = quick();
+  style.distance_m = 1.4;
+  style.location_weight = 100;
+  // Points for where it stands on its best line.
+  const auto place = [&](float scale, float apart) {
+    std::vector<Contender> two = contenders(2, style);
+    two[0].body = make_body({.height = scale * kCanonicalHeight});
+    const Plan plan = Planner(library(), two, {}, 1).plan(facing(apart), FighterId(0), 0);
+    return (*plan.record.lines.front().terms)[0].location;
+  };
+  EXPECT_GT(place(1, 1.4f), place(1, 0.7f));
+  EXPECT_GT(place(0.5f, 0.7f), place(0.5f, 1.4f));
+}
+
 TEST_F(PlanTest, SeedsChooseDifferentlyAmongNearlyEqualMovesOnly) {
   Style soft = quick();
   soft.temperature = 3;

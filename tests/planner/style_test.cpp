@@ -89,6 +89,15 @@ TEST(EvaluationTest, HoweverFarApartAStepNearerCounts) {
   EXPECT_DOUBLE_EQ(location_rate(weights_at({}, 0, 1.5), 50, 1, 3), -3);  // near ones: as ever
 }
 
+TEST(EvaluationTest, PreferredDistancesGoWithTheBody) {
+  Style style;
+  style.distance_m = 1.2;
+  const Weights small = weights_at(style, 0, 0, 0.8);
+  EXPECT_DOUBLE_EQ(small.distance, 0.96);
+  EXPECT_DOUBLE_EQ(small.sigma, 0.8 * style.distance_sigma_m);
+  EXPECT_NEAR(weights_at(style, 1000, 0, 0.8).distance, 0.72, 1e-9);
+}
+
 TEST(EvaluationTest, WhoLiesIsGivenRoom) {
   const Weights weights = weights_at({}, 0);
   const double room = weights.distance + kLyingReach;
