@@ -35,7 +35,8 @@ double protects(DefenseKind kind, TargetZone zone) {
   return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
 }
 
-constexpr double kNoRopes = 1e6;   // m: so far away that nobody comes near them
+constexpr float kOutOfReach = 1.5f;  // m short of the opponent: an attack from there is none
+constexpr double kNoRopes = 1e6;     // m: so far away that nobody comes near them
 constexpr double kFeintWorth = 3;  // points that a feint is expected to bring who takes another in
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
@@ -275,7 +276,7 @@ void Duel::score_candidates(const Node& node, int who) {
   std::size_t count = 0;
   std::array<std::size_t, kChoices> choices{};  // how many of each
   float least_turned = -2, least_out = std::numeric_limits<float>::max();
-  Scored spare{}, held{};
+  Scored spare{}, held{}, far{};
   const std::span<const NextAction> all = self.flight.table->next;
   const std::span<const NextLanes> lanes = self.flight.table->next_lanes;
   then_x_.resize(lanes.size()), then_z_.resize(lanes.size());
@@ -299,7 +300,8 @@ void Duel::score_candidates(const Node& node, int who) {
     if (aspect.late && in.particular[lane]) continue;
     double points = aspect.location(in.until[lane], rates[lane]) +
                     0.001 * own.launch[static_cast<std::size_t>(in.to[lane])];
-    if (bearing.target[lane] - aspect.roams <= in.within[lane] && in.within[lane] > 0) {
+    const float within = in.within[lane], apart = bearing.target[lane];
+    if (within > 0 && apart - aspect.roams <= within) {
       aspect.now = node.now + in.lead[lane];
       const Frame start = frame_of(bearing.start_x[lane], bearing.start_z[lane],
                                    bearing.start_sine[lane], bearing.start_cosine[lane]);
@@ -309,6 +311,11 @@ void Duel::score_candidates(const Node& node, int who) {
     points += saved_[i];
     const Scored one{thousandths(points), &next, false, bearing.apart[lane]};
     const float facing = bearing.facing[lane];
+    if (setup_->settings.prune.out_of_reach && within > 0 && apart > within + kOutOfReach) {
+      ++counts_.candidates;  // nobody boxes the air
+      if (far.next == nullptr || one.better_than(far)) far = one;
+      continue;
+    }
     if (const float out = farther_out(bearing.x[lane], bearing.z[lane]); out > aspect.held_at) {
       ++counts_.candidates;  // nobody walks through the ropes
       if (out < least_out) least_out = out, held = one;
@@ -329,7 +336,7 @@ void Duel::score_candidates(const Node& node, int who) {
         one.score += thousandths(kFeintWorth);
     }
   }
-  if (count == 0 && spare.next == nullptr) spare = held;
+  if (count == 0 && spare.next == nullptr) spare = held.next != nullptr ? held : far;
   if (count == 0 && spare.next != nullptr) {
     scored_[count++] = spare;
     ++choices[static_cast<std::size_t>(spare.next->choice)];

@@ -32,6 +32,7 @@ struct Contender {
 struct PruneSettings {
   bool unanswered_hit = true;
   bool back_turned = true;
+  bool out_of_reach = true;  // attacks from where they end 1.5 m or more short of the opponent
   bool penetration = true;
   double penetration_m = 0.03;  // deeper prunes the branch
   Tick penetration_every = 4;   // ticks between checks

@@ -167,6 +167,7 @@ class Reader {
     const json& prune = given["prune"];
     planner.prune.unanswered_hit = prune.value("unanswered_hit", planner.prune.unanswered_hit);
     planner.prune.back_turned = prune.value("back_turned", planner.prune.back_turned);
+    planner.prune.out_of_reach = prune.value("out_of_reach", planner.prune.out_of_reach);
     planner.prune.penetration = prune.value("penetration", planner.prune.penetration);
     planner.prune.penetration_m = prune.value("penetration_m", planner.prune.penetration_m);
   }

@@ -39,7 +39,7 @@ class DuelFixture : public SyntheticFixture {
   }
   void prune_nothing() {
     PruneSettings& prune = setup_.settings.prune;
-    prune.unanswered_hit = prune.back_turned = prune.penetration = false;
+    prune.unanswered_hit = prune.back_turned = prune.out_of_reach = prune.penetration = false;
   }
 
   // Fighters face each other, `distance` m apart; fighter 0 acts at tick 0, fighter 1 at `lag`.

@@ -516,6 +516,25 @@ TEST_F(DuelTest, WhoLikesToAttackDoesNotFightTheAir) {
       library().action(planner.plan(facing(1.0f), FighterId(0), 0).launch.action).attacks());
 }
 
+TEST_F(DuelTest, NobodyBoxesTheAir) {
+  Style style;
+  style.candidates = 40;
+  set_style(style);
+  const auto attacks = [&](float apart) {
+    Duel game(setup_, 240);
+    std::vector<DuelMove> moves;
+    game.moves(Duel::root(setup_, facing(apart)), moves);
+    EXPECT_GT(moves.size(), 3u) << apart;  // steps, defenses, an idle
+    return std::count_if(moves.begin(), moves.end(), [&](const DuelMove& move) {
+      return library().action(move.action).attacks();
+    });
+  };
+  EXPECT_GT(attacks(1.6f), 3);
+  EXPECT_EQ(attacks(4), 0);
+  setup_.settings.prune.out_of_reach = false;
+  EXPECT_GT(attacks(4), 3);
+}
+
 TEST_F(DuelTest, StrikeAtNobodyIsNotEvaded) {
   const FightState state = facing(2.5f);
   Duel game(setup_, 200);
@@ -826,6 +845,7 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
     side.launch.assign(low.actions().size(), 0);
     side.clean_damage = damage;
   }
+  setup_.settings.prune.out_of_reach = false;  // they stand where nobody meets
   FightState state = facing(3);
   for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
   Duel game(setup_, 400);
@@ -869,6 +889,7 @@ TEST_F(DuelTest, OfWhatBeginsAsWasSeenTheBestIsForeseen) {
   for (int i = 0; i < 100; ++i) habits.note(situation_of(3, Kind::idle, false), sink);
   setup_.habits = &habits;
   setup_.learning = 1;
+  setup_.settings.prune.out_of_reach = false;  // they stand where nobody meets
   FightState state = facing(3);
   for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
   for (const ActionId best : {sink, blow}) {
@@ -899,7 +920,9 @@ TEST_F(DuelTest, PlanLaunchesAPathsFirstActionAndNamesTheRest) {
   style.liked["sink"] = style.liked["idle"] = style.liked["rise"] = -50;
   FightState state = facing(3);
   for (FighterState& fighter : state.fighters) fighter.launch.action = low.find("idle");
-  Planner planner(low, contenders(2, style), {}, 1);
+  PlanSettings settings;
+  settings.prune.out_of_reach = false;
+  Planner planner(low, contenders(2, style), settings, 1);
   const Plan plan = planner.plan(state, FighterId(0), 0);
   EXPECT_EQ(low.action(plan.launch.action).name, "sink");
   EXPECT_EQ(plan.then, std::vector<ActionId>{low.find("low_cross")});
