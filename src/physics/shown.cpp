@@ -33,6 +33,7 @@ constexpr float kMostGather = 3.0f;  // s after the landing
 constexpr float kRolling = .6f;      // m/s: a body that moves faster has not found its lying pose
 constexpr float kResting = .15f;     // m/s
 constexpr float kRestFor = .25f;     // s
+constexpr float kLow = .6f;  // of the leg's length: a body whose hips are lower is not on its feet
 constexpr float kMostAfterLanding = 4.0f;  // s
 constexpr Tick kReposes = 12;              // a body that has come to rest
 constexpr Tick kMostLater = 240;           // than asked for, a body comes to rest
@@ -457,12 +458,18 @@ class Shown {
       protecting_ = true;
       ragdoll_.set_servo(.10f, true);
     }
-    if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ > kGatherFrom) {
+    if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ >= kGatherFrom) {
       gather(now - landed_);
     }
     const float in = kTickSeconds / kGatherIn;
     astray_share_ = std::clamp(astray_share_ + (astray_ ? in : -in), 0.0f, 1.0f);
     ragdoll_.track(protective_, protective_, protective_, kTickSeconds);
+  }
+
+  // Whether it has come to rest on knees or hands, its trunk off the ground: it lies down from
+  // there.
+  bool caught(const Pose& pose) const {
+    return still_ >= kRestFor && pose.hips.y < kLow * body_.skeleton.leg_length();
   }
 
   // Aims at the nearest lying pose; while the body still rolls, that may change.
@@ -483,8 +490,9 @@ class Shown {
       step(2 * (tick - 1) + half);
     }
     const Pose pose = ragdoll_.pose();
-    if (landed_ < 0 && trunk_down(body_, pose)) {
+    if (landed_ < 0 && (trunk_down(body_, pose) || caught(pose))) {
       landed_ = now;
+      still_ = 0;
       protective_ = lying_pose(body_, protective_, pose);
     }
     still_ = ragdoll_.fastest() < kResting && !astray_ ? still_ + kTickSeconds : 0;

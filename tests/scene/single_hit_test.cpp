@@ -199,8 +199,6 @@ float jump_into_get_up(const HitAnswer& answer) {
   return largest;
 }
 
-// One that sat down with a leg stretched out: led along a line to where the get-up has it, the foot
-// passed the hip and the leg turned over at 26 m/s. And one whose arm lies behind its back.
 // The clips that answer blows from the front begin with the head turned away by 45 degrees.
 TEST(SingleHit, ATapTurnsTheHeadLittleAndAHarderBlowMore) {
   for (const Vec3& way : {Vec3{0, 0, -1}, Vec3{-1, 0, 0}, Vec3{1, 0, 0}}) {
@@ -228,6 +226,10 @@ TEST(SingleHit, ATapTurnsTheHeadLittleAndAHarderBlowMore) {
   }
 }
 
+// One that sat down with a leg stretched out: led along a line to where the get-up has it, the foot
+// passed the hip and the leg turned over at 26 m/s. One whose arm lies behind its back. And one that
+// has caught itself on its hands over a folded leg: its trunk never came down, it got up without
+// having lain, and the leg turned over at 52 m/s.
 TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
   HitQuery seated = query("step_forward_left_long", .059);
   seated.part = Part::right_thigh;
@@ -237,7 +239,11 @@ TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
   on_its_arm.part = Part::left_thigh;
   on_its_arm.impulse = {84.4f, 0, 11.7f};
   on_its_arm.tone = .66f;
-  for (const HitQuery& hit : {seated, on_its_arm}) {
+  HitQuery caught = query("side_kick_lead", .7043473482131959);
+  caught.part = Part::right_thigh;
+  caught.impulse = {-13.471954f, 0, -83.82341f};
+  caught.tone = .796262f;
+  for (const HitQuery& hit : {seated, on_its_arm, caught}) {
     const auto answer = simulate_hit(default_library(), hit);
     ASSERT_TRUE(answer) << to_string(answer.error());
     ASSERT_EQ(answer->outcome.response, ResponseKind::knockdown) << hit.action;
