@@ -24,7 +24,7 @@ export class Cameras {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.minDistance = 0.6;
-    this.controls.maxDistance = 18;
+    this.controls.maxDistance = 60;  // m: two at the far ends of a large ring are in the picture
     this.controls.maxPolarAngle = Math.PI * 0.53;
     this.controls.addEventListener('change', () => this.changed());
     // A hand on a view that moves by itself takes it over from where it is.
