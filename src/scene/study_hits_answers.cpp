@@ -279,20 +279,16 @@ std::string hit_command(const HitQuery& query) {
                      query.impulse.y, query.impulse.z, query.tone);
 }
 
-// Which hits to look at for the worst seams of a kind.
-void say_worst(const StudyRun& run, const std::string& kind, std::vector<const Answered*> all,
-               Seam Answered::*field) {
+// Which hits to look at: those with the largest `badness`, each with what is `told` of it.
+template <class Badness, class Told>
+void say_worst(const StudyRun& run, std::vector<const Answered*> all, Badness badness, Told told) {
   constexpr std::size_t kShown = 5;
   const std::size_t shown = std::min(kShown, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),
-                    [field](const Answered* a, const Answered* b) {
-                      return (a->*field).velocity > (b->*field).velocity;
-                    });
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Seam& seam = all[i]->*field;
-    run.say(fmt::format("{}: {:.2f} m/s, {} {:.2f} s after: {}", kind, seam.velocity,
-                        vrm_name(seam.joint), seconds(seam.tick - all[i]->hit),
-                        hit_command(all[i]->query)));
+  std::partial_sort(
+      all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), all.end(),
+      [&](const Answered* a, const Answered* b) { return badness(*a) > badness(*b); });
+  for (std::size_t i = 0; i < shown && badness(*all[i]) > 0; ++i) {
+    run.say(fmt::format("{}: {}", told(*all[i]), hit_command(all[i]->query)));
   }
 }
 
@@ -317,7 +313,13 @@ void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
               "");
     rows.held(fmt::format("pop {}: joint jump beyond its motion, worst", name), "m",
               quantile(apart, 1), "", at_most(.025));
-    say_worst(asked.run, name, std::move(looked_at), field);
+    say_worst(
+        asked.run, std::move(looked_at), [&](const Answered& a) { return (a.*field).velocity; },
+        [&](const Answered& a) {
+          const Seam& seam = a.*field;
+          return fmt::format("{}: {:.2f} m/s, {} {:.2f} s after", name, seam.velocity,
+                             vrm_name(seam.joint), seconds(seam.tick - a.hit));
+        });
   };
   worst("simulation to clip", &Answered::into_clip, [](const Answered& a) { return a.stays_up; });
   worst("fall to get-up", &Answered::into_get_up,
@@ -328,15 +330,22 @@ void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
 void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   rows.group("V7 what game makers report wrong");
   std::vector<double> skate;
+  std::vector<const Answered*> stood;
   std::size_t once = 0, falls = 0, up = 0;
   for (const Answered& a : all) {
-    if (a.stays_up) skate.push_back(a.skate);
+    if (a.stays_up) {
+      skate.push_back(a.skate);
+      stood.push_back(&a);
+    }
     once += a.answers == 1 ? 1 : 0;
     falls += a.falls && !a.knocked_out ? 1 : 0;
     up += a.falls && !a.knocked_out && a.got_up ? 1 : 0;
   }
   rows.held(fmt::format("feet slide under a body that stays up, worst of {}", skate.size()), "",
             quantile(skate, 1), "0.000-0.005 real boxing", at_most(.02));
+  say_worst(
+      asked.run, std::move(stood), [](const Answered& a) { return a.skate; },
+      [](const Answered& a) { return fmt::format("feet slide, {:.3f}", a.skate); });
   rows.held("hits with exactly one answer", "%", share(once, all.size()), "", at_least(100));
   if (falls > 0) {
     rows.held(fmt::format("{} falls: stands after one get-up", falls), "%", share(up, falls), "",
