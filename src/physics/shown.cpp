@@ -458,7 +458,7 @@ class Shown {
       protecting_ = true;
       ragdoll_.set_servo(.10f, true);
     }
-    if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ >= kGatherFrom) {
+    if (landed_ >= 0 && !outcome_.knockout && !lying_.empty() && now - landed_ > kGatherFrom) {
       gather(now - landed_);
     }
     const float in = kTickSeconds / kGatherIn;
@@ -492,7 +492,7 @@ class Shown {
     const Pose pose = ragdoll_.pose();
     if (landed_ < 0 && (trunk_down(body_, pose) || caught(pose))) {
       landed_ = now;
-      still_ = 0;
+      still_ = -kGatherFrom;  // at rest again no sooner than it gathers itself
       protective_ = lying_pose(body_, protective_, pose);
     }
     still_ = ragdoll_.fastest() < kResting && !astray_ ? still_ + kTickSeconds : 0;
