@@ -93,7 +93,7 @@ bool Feet::lies() const {
 }
 
 void Feet::stitch(const Seam& seam) {
-  after_simulation_ = seam.simulated;
+  after_simulation_ = seam.catches_up;
   blend_seconds_ = seam.seconds;
   sink_ = {};  // what the hips had sunk is part of their offset now
   for (const Side side : kEachFoot) stitch_foot(side, seam);
@@ -156,7 +156,7 @@ void Feet::stand_as_shown(Foot& foot) const {
 }
 
 void Feet::stitch_foot(Side side, const Seam& seam) {
-  const auto& [shown, now, after, seconds, turn_seconds, simulated, hips_turn] = seam;
+  const auto& [shown, now, after, seconds, turn_seconds, simulated, catches_up, hips_turn] = seam;
   Foot& foot = of(side);
   const std::size_t end = index(leg(side).end), ball = index(toes(side));
   foot.turn = rotation_decay(foot.shown_before, foot.shown, now.rotation[end], after.rotation[end],

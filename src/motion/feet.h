@@ -21,6 +21,7 @@ class Feet {
     float seconds;       // in which the difference falls to nothing
     float turn_seconds;  // the same of where the body faces
     bool simulated;      // the pose shown last was
+    bool catches_up;     // with a simulation, now or still
     Vec3 hips_turn;      // left of the hips' turn to the clip's, a rotation vector
   };
   void stitch(const Seam& seam);
@@ -117,7 +118,7 @@ class Feet {
   Skeleton skeleton_;
   PlaybackSettings settings_;
   bool started_ = false;
-  bool after_simulation_ = false;  // the last seam was one from a simulated pose
+  bool after_simulation_ = false;  // since the last seam they catch up with one
   float blend_seconds_ = 0.24f;    // of the last seam
   float hips_height_ = 0;          // m: shown
   float since_step_ = 1;           // s: since a foot took a step of its own

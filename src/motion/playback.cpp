@@ -128,8 +128,8 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
-  feet_.stitch(
-      {shown, world_now, world_after, seconds, turn_.yaw.seconds_left(), simulated_, turn_.left()});
+  feet_.stitch({shown, world_now, world_after, seconds, turn_.yaw.seconds_left(), simulated_,
+                catches_up_, turn_.left()});
   for (const Side side : kSides) {
     const std::size_t hand = index(arm(side).end);
     const Vec3 hand_moved = shown.position[hand] - before.position[hand];

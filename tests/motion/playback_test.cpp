@@ -740,6 +740,45 @@ TEST(Playback, ALegThatSwingsThroughItsPlaceDoesNotJerk) {
   }
 }
 
+// A leg that comes down from a kick when its body is struck, and is still on its way when the body
+// acts again: it slows before the floor as if there had been one seam only.
+TEST(Playback, AThrownFootMeetsTheFloorGentlyThoughAnotherClipHasBegun) {
+  const Limb limb = leg(Side::left);
+  const Pose guard = test::idle_clip(kSkeleton, 240).at(0);
+  for (const float behind : {0.0f, 0.3f}) {
+    const Clip stands = test::clip_of(
+        kSkeleton, 240,
+        [behind](float) {
+          test::Stance stance;
+          stance.left_ball.z -= behind;
+          return stance;
+        },
+        test::both, test::in_place);
+    for (const Tick between : {6, 12, 18, 24}) {
+      Playback playback(kSkeleton);
+      Shown shown;
+      for (Tick tick = -12; tick <= 0; ++tick) {
+        Pose kicks = guard;
+        Quat& hip = kicks.rotation[index(limb.root)];
+        hip = glm::angleAxis(-1.2f + 8 * static_cast<float>(tick) * kTickSeconds, kLeft) * hip;
+        playback.next_simulated(kicks);
+        shown.add(playback);
+      }
+      const std::size_t seam = shown.size();
+      play(playback, stands, {}, between, shown);
+      play(playback, stands, {0.05f, 0, 0}, 120, shown);
+      EXPECT_LT(velocity_jump(shown, seam + 1, shown.size()), 1.3f) << behind << between;
+      for (std::size_t t = seam + 1; t < shown.size(); ++t) {
+        const float from = shown.at(t - 1, Joint::left_toes).y;
+        const float falls = (from - shown.at(t, Joint::left_toes).y) / kTickSeconds;
+        if (from < kSkeleton.toe_height() + 0.05f) {
+          EXPECT_LT(falls, 1.4f) << behind << between;
+        }
+      }
+    }
+  }
+}
+
 // A foot that touches the floor while it is still moved: it stands as soon as it has slowed, and is
 // not taken back along the floor to where it should have landed.
 TEST(Playback, AStepThatHasSlowedOnTheFloorStands) {
