@@ -227,9 +227,9 @@ TEST(SingleHit, ATapTurnsTheHeadLittleAndAHarderBlowMore) {
 }
 
 // One that sat down with a leg stretched out: led along a line to where the get-up has it, the foot
-// passed the hip and the leg turned over at 26 m/s. One whose arm lies behind its back. And one that
-// has caught itself on its hands over a folded leg: its trunk never came down, it got up without
-// having lain, and the leg turned over at 52 m/s.
+// passed the hip and the leg turned over at 26 m/s. One whose arm lies behind its back. And one
+// that has caught itself on its hands over a folded leg: its trunk never came down, it got up
+// without having lain, and the leg turned over at 52 m/s.
 TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
   HitQuery seated = query("step_forward_left_long", .059);
   seated.part = Part::right_thigh;
