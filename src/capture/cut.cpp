@@ -48,11 +48,6 @@ Tick full_reach(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick pe
   return best;
 }
 
-bool is_straight(StrikeKind kind) {
-  return kind == StrikeKind::straight || kind == StrikeKind::front_kick ||
-         kind == StrikeKind::side_kick;
-}
-
 // Straights: from 65 % of the way out to just after full reach, measured along the facing.
 void straight_window(const Skeleton& skeleton, const Clip& clip, Tick peak, Strike& strike) {
   const Tick reached = full_reach(skeleton, clip, strike.joint, peak);
@@ -90,7 +85,7 @@ std::vector<Aim> aims_of(const Skeleton& skeleton, const Clip& clip, const Actio
                          Tick first) {
   std::vector<Aim> aims;
   for (const StrikeCut& strike : cut.strikes) {
-    if (!is_straight(strike.kind)) continue;
+    if (!goes_straight(strike.kind)) continue;
     const Tick at = ticks(strike.at) - first;
     const Tick peak = fastest_tick(skeleton, clip, strike.joint, at - ticks(kSearchAround),
                                    at + ticks(kSearchAround));
@@ -102,7 +97,7 @@ std::vector<Aim> aims_of(const Skeleton& skeleton, const Clip& clip, const Actio
 
 bool has_straight(const ActionCut& cut) {
   return std::any_of(cut.strikes.begin(), cut.strikes.end(),
-                     [](const StrikeCut& strike) { return is_straight(strike.kind); });
+                     [](const StrikeCut& strike) { return goes_straight(strike.kind); });
 }
 
 // The root track: over the ground as tracked, facing as the guard at the start does and turning
@@ -265,7 +260,7 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
     const Tick around = ticks(kSearchAround);
     const Tick peak = fastest_tick(skeleton, action.clip, wanted.joint, std::max(1, at - around),
                                    std::min(at + around, action.length() - 1));
-    if (is_straight(wanted.kind))
+    if (goes_straight(wanted.kind))
       straight_window(skeleton, action.clip, peak, strike);
     else
       arc_window(skeleton, action.clip, peak, strike);

@@ -16,12 +16,11 @@ constexpr Tick kEarliest = 60;  // ticks before the hand leaves in which an acti
 constexpr Tick kSettles = 18;   // ticks after the hand is back at which an action wants to end
 constexpr Tick kLatest = 84;    // ticks after the hand is back by which it ends
 constexpr Tick kInside = 8;     // ticks a strike's peak lies inside its action at least
-constexpr Tick kAfterReach = 10;     // ticks after full reach before which nothing ends
-constexpr float kTogether = 0.45f;   // s from one full reach to the next hand's leaving
-constexpr float kParted = 0.17f;     // m rms from the guard at which a combination can be parted
-constexpr float kStrange = 0.25f;    // m rms from the guard at which a pose says nothing of facing
-constexpr float kHaste = 0.06f;      // m rms that a second away from the wanted moment costs
-constexpr std::size_t kLongest = 6;  // strikes of a combination
+constexpr Tick kAfterReach = 10;    // ticks after full reach before which nothing ends
+constexpr float kTogether = 0.45f;  // s from one full reach to the next hand's leaving
+constexpr float kParted = 0.17f;    // m rms from the guard at which a combination can be parted
+constexpr float kStrange = 0.25f;   // m rms from the guard at which a pose says nothing of facing
+constexpr float kHaste = 0.06f;     // m rms that a second away from the wanted moment costs
 
 struct Span {
   Tick begin = 0, end = 0;
@@ -118,7 +117,7 @@ void add_chain(const Found& found, std::size_t chain_first, std::size_t chain_la
     for (std::size_t last = first; last <= chain_last; ++last) {
       const std::size_t count = last - first + 1;
       const bool whole = first == chain_first && last == chain_last;
-      if (count > kLongest || (count > 2 && !whole)) continue;
+      if (count > kMostStrikes || (count > 2 && !whole)) continue;
       const Span span = span_of(found, first, last);
       if (!cuttable(found, first, last, span)) continue;
       const auto near = [&](Tick t) {

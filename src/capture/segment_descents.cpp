@@ -24,10 +24,6 @@ constexpr float kSitting = radians(35);     // trunk elevation
 constexpr float kUpsideDown = radians(30);  // of the trunk, head below the hips
 constexpr Tick kRollOver = 120;             // ticks a roll is on the floor at most
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 float hips(const Measures& m, Tick t) {
   return m.at(Joint::hips, t).y;
 }

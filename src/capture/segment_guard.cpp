@@ -33,10 +33,6 @@ constexpr std::array<Joint, 9> kLooks = {Joint::head,
                                          Joint::left_foot,
                                          Joint::right_foot};
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 std::vector<bool> quiet_ticks(const Measures& m, const std::vector<FoundBlow>& blows,
                               const std::vector<Descent>& falls) {
   std::vector<bool> quiet(m.world.size(), true);

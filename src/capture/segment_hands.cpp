@@ -51,10 +51,6 @@ struct Stroke {
   float over_shoulder = 0;  // m: the wrist over the own shoulder at the reach
 };
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 Joint wrist_of(Side side) {
   return arm(side).end;
 }

@@ -29,10 +29,6 @@ constexpr float kThrusts = 0.80f;  // share of the velocity along the leg: side 
 constexpr float kHead = 0.80f;     // H
 constexpr float kLegs = 0.44f;     // H
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 struct Swing {
   Side side = Side::left;
   Tick peak = 0, chamber = 0, reach = 0;

@@ -8,6 +8,11 @@
 
 namespace ringcraft {
 
+// A tick of the capture as an index.
+inline std::size_t at(Tick tick) {
+  return static_cast<std::size_t>(tick);
+}
+
 // Speeds in m/s of a body of 1.75 m (captures are retargeted to it), lengths as shares of the limb
 // or of the standing height H. Each stands between what was measured on strikes and what was
 // measured on everything else; docs/captures.md has both sides and what +-15 % does.

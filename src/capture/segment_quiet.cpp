@@ -25,10 +25,6 @@ constexpr float kSway = 0.085f;      // H it goes back
 constexpr float kHighGuard = 0.20f;  // H from both wrists to the head
 constexpr std::size_t kOfEach = 4;   // pieces kept of one name, those nearest to the guard
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 struct Piece {
   Tick begin = 0, end = 0;
   Vec3 way{};                      // H: hips over the ground, in the facing at the begin

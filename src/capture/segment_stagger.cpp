@@ -28,10 +28,6 @@ constexpr Tick kMost = 168;
 constexpr float kGoes = 0.05f;  // H the hips go in an answer
 constexpr std::size_t kMostSteps = 3;
 
-std::size_t at(Tick tick) {
-  return static_cast<std::size_t>(tick);
-}
-
 struct Step {
   Tick lift = 0, land = 0;
 };

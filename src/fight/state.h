@@ -30,6 +30,9 @@ struct Launch {
   // The first tick at which the clip is at the age `clip`, or past it.
   Tick when(Tick clip) const { return start + pace.reached(clip); }
 
+  bool has_spent(std::size_t strike) const { return ((spent >> strike) & 1u) != 0; }
+  void spend(std::size_t strike) { spent = static_cast<std::uint8_t>(spent | (1u << strike)); }
+
   bool operator==(const Launch&) const = default;
 };
 

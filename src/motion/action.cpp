@@ -67,6 +67,11 @@ bool is_authored(const Action& action) {
   return action.source.find(".toml:") != std::string::npos;
 }
 
+bool goes_straight(StrikeKind kind) {
+  return kind == StrikeKind::straight || kind == StrikeKind::front_kick ||
+         kind == StrikeKind::side_kick;
+}
+
 std::string_view name_of(Kind kind) {
   return name_in(kKinds, kind);
 }

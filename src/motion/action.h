@@ -34,6 +34,7 @@ struct Strike {
   TargetZone zone = TargetZone::head;
   Tick active_begin = 0;  // first tick at which it can hit
   Tick active_end = 0;    // first tick at which it no longer can
+  bool active(Tick age) const { return age >= active_begin && age < active_end; }
   // What it was made to meet (motion/aim.h) and from where: m between the two roots at the launch.
   // Empty where nobody said.
   std::string aim = {};
@@ -73,6 +74,8 @@ struct Feint {
 // Which foot is ahead: orthodox the left one, southpaw the right one.
 enum class Stance : std::uint8_t { orthodox, southpaw };
 
+inline constexpr std::size_t kMostStrikes = 6;  // of one action
+
 struct Action {
   std::string name;
   Kind kind = Kind::idle;
@@ -98,6 +101,8 @@ struct Action {
 
   Tick length() const { return clip.length(); }
   bool attacks() const { return !strikes.empty(); }
+  // Follows a blow or a fall and is never chosen.
+  bool forced() const { return kind == Kind::response || kind == Kind::get_up; }
 };
 
 // Whether a word of `leads_to` means that action.
@@ -107,6 +112,9 @@ bool may_lead(const Action& from, const Action& to);
 
 // True for an action that was compiled from a technique sheet.
 bool is_authored(const Action& action);
+
+// Whether a blow of that kind goes out along the gaze: its end is full reach.
+bool goes_straight(StrikeKind kind);
 
 std::string_view name_of(Kind kind);
 std::string_view name_of(TargetZone zone);

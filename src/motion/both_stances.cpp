@@ -80,7 +80,7 @@ class Doubled {
     const Stance leaves = actions_[at].stance;
     for (std::size_t i = 0; i < actions_.size(); ++i) {
       const Action& other = actions_[i];
-      const bool answers = other.kind == Kind::response || other.kind == Kind::get_up;
+      const bool answers = other.forced();
       if (other.stance != leaves && !answers) add_edge(at, i, settings.threshold);
       if (other.stance == leaves && !other.switches) {
         add_edge(i, at, answers ? settings.response_threshold : settings.threshold);

@@ -215,7 +215,7 @@ class LibraryReader {
           if (in.ok() && !stands(ActionId(i), *paths_[i][j], ActionId(j))) {
             return "a path leads over an edge that does not stand";
           }
-        } else if (in.ok() && launchable(parts_.actions[j])) {
+        } else if (in.ok() && !parts_.actions[j].forced() && !parts_.actions[j].connects) {
           return fmt::format("no path from {} to {}", parts_.actions[i].name,
                              parts_.actions[j].name);
         }
@@ -266,9 +266,6 @@ class LibraryReader {
   LibraryParts take() { return std::move(parts_); }
 
  private:
-  static bool launchable(const Action& action) {
-    return action.kind != Kind::response && action.kind != Kind::get_up && !action.connects;
-  }
   bool known(ActionId id) const { return id.valid() && id.at() < parts_.actions.size(); }
   bool inside(std::int32_t clip, Tick tick) const {
     const auto& clips = parts_.graph.clips;

@@ -162,6 +162,7 @@ std::string wrong_with(const Action& action) {
   if (action.name.empty()) return "an action without a name";
   const std::vector<std::string> broken = faults(action.clip);
   if (!broken.empty()) return broken.front();
+  if (action.strikes.size() > kMostStrikes) return "more strikes than an action may have";
   for (const Strike& strike : action.strikes) {
     if (std::string wrong = wrong_strike(strike, action.length()); !wrong.empty()) return wrong;
   }

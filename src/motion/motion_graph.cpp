@@ -316,7 +316,7 @@ std::vector<GraphSource> graph_sources(const std::vector<Action>& actions,
     GraphSource source;
     source.name = action.name;
     source.clip = &action.clip;
-    if (action.kind == Kind::response || action.kind == Kind::get_up) {
+    if (action.forced()) {
       source.starts = false;
       source.threshold = settings.answering;
       const Tick end = action.length();

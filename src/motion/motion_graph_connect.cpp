@@ -20,10 +20,6 @@ constexpr std::size_t kAtOnce = 24;             // ways made before paths are lo
 constexpr Tick kRootEases = 24;                 // ticks in which the root track makes good a seam
 constexpr Tick kNoPath = 10 * kTicksPerSecond;  // what an action that cannot be reached counts for
 
-bool launchable(const Action& action) {
-  return action.kind != Kind::response && action.kind != Kind::get_up;
-}
-
 // A way from the end of one action to the start of another.
 struct Way {
   ActionId from, to;
@@ -230,7 +226,7 @@ std::vector<Action> connecting_actions(const Skeleton& skeleton, const std::vect
   for (std::size_t i = 0; i < actions.size(); ++i) {
     if (actions[i].ends_lying != Lying::none) continue;
     for (Way& way : search.from(ActionId(i), actions.size())) {
-      if (launchable(actions[way.to.at()])) ways.push_back(std::move(way));
+      if (!actions[way.to.at()].forced()) ways.push_back(std::move(way));
     }
   }
   std::vector<Action> all = actions;

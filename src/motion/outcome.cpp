@@ -14,17 +14,12 @@ constexpr float kLeastWeight = 0.05f;  // smaller ones are left out
 constexpr float kSameSpot = 1e-4f;     // m or rad
 constexpr std::size_t kAllPairs = 8;   // repetitions up to which every pair is sampled
 
-bool is_straight(StrikeKind kind) {
-  return kind == StrikeKind::straight || kind == StrikeKind::front_kick ||
-         kind == StrikeKind::side_kick;
-}
-
 Vec3 blow_of(const Skeleton& skeleton, const Action& action) {
   const Strike& strike = action.strikes.back();
   const auto at = [&](Tick tick) {
     return striking_point(strike, skeleton, world_pose(skeleton, action.clip.at(tick)));
   };
-  if (!is_straight(strike.kind)) return at((strike.active_begin + strike.active_end - 1) / 2);
+  if (!goes_straight(strike.kind)) return at((strike.active_begin + strike.active_end - 1) / 2);
   Vec3 farthest = at(strike.active_begin);
   for (Tick t = strike.active_begin + 1; t < strike.active_end; ++t) {
     const Vec3 point = at(t);

@@ -19,17 +19,13 @@ Cloud end_cloud(const Skeleton& skeleton, const Clip& clip) {
   return cloud_at(skeleton, clip, clip.length());
 }
 
-bool launchable(const Action& action) {
-  return action.kind != Kind::response && action.kind != Kind::get_up;
-}
-
 bool edge_allowed(const Action& from, const Action& to, float distance,
                   const StateMachineSettings& settings) {
   if (from.ends_lying != Lying::none) {  // only a get-up follows a fall, whatever way it lies
     return to.kind == Kind::get_up;
   }
-  if (!launchable(to) || !may_lead(from, to)) return false;
-  return distance <= (launchable(from) ? settings.threshold : settings.response_threshold);
+  if (to.forced() || !may_lead(from, to)) return false;
+  return distance <= (from.forced() ? settings.response_threshold : settings.threshold);
 }
 
 using Edges = std::vector<std::vector<Edge>>;
@@ -166,7 +162,7 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
     for (std::size_t i = 0; i < actions.size(); ++i) {
       const bool into = std::any_of(edges[i].begin(), edges[i].end(),
                                     [&](const Edge& edge) { return leads[edge.to.at()]; });
-      kept[i] = launchable(actions[i]) && into && out_of[i] &&
+      kept[i] = !actions[i].forced() && into && out_of[i] &&
                 (!connects(actions[i]) || component[i] == core);
       if (actions[i].connects && leads[i]) kept[i] = true;
     }
@@ -177,7 +173,7 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
   if (count > 0) return best;
   // Nothing to lead over: what follows itself and all the others directly, first come first kept.
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    bool fits = launchable(actions[i]) && stands(edges, i, i);
+    bool fits = !actions[i].forced() && stands(edges, i, i);
     for (std::size_t j = 0; j < i && fits; ++j) {
       if (best[j]) fits = stands(edges, i, j) && stands(edges, j, i);
     }

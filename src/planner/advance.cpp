@@ -13,14 +13,6 @@ constexpr float kBodyRadius =
     0.25f;  // m: a blow that passes nearer to where a body stood was in reach
 constexpr std::int32_t kHitFault = 1'000;
 
-bool spent(const Launch& launch, std::size_t strike) {
-  return strike < 8 && ((launch.spent >> strike) & 1u) != 0;
-}
-
-void spend(Launch& launch, std::size_t strike) {
-  if (strike < 8) launch.spent = static_cast<std::uint8_t>(launch.spent | (1u << strike));
-}
-
 // Distance on the ground from `point` to the segment a-b.
 float ground_distance(Vec3 point, Vec3 a, Vec3 b) {
   const Vec2 p(point.x - a.x, point.z - a.z), d(b.x - a.x, b.z - a.z);
@@ -43,7 +35,7 @@ void Duel::find_windows(const Node& node, Tick end) {
     if (target.balance == 2 && !setup_->settings.hits_on_downed) return;
     for (std::size_t i = 0; i < flight.table->strikes.size(); ++i) {
       const StrikeTable& strike = flight.table->strikes[i];
-      if (spent(flight.launch, i)) continue;
+      if (flight.launch.has_spent(i)) continue;
       if (attacker >= 2 &&
           (i >= 4 || (node.threats_met >> (4 * (attacker - 2) + static_cast<int>(i)) & 1u) != 0))
         continue;
@@ -99,7 +91,7 @@ void Duel::credit_landed(Node& node, const DuelEvent& event, bool knocks_down) {
                         << (4 * (event.attacker - 2) + static_cast<int>(event.strike));
     if (event.victim != 0) return;
   } else {
-    spend(node.side[static_cast<std::size_t>(event.attacker)].flight.launch, event.strike);
+    node.side[static_cast<std::size_t>(event.attacker)].flight.launch.spend(event.strike);
   }
   // A bystander's blow on the planner counts as if the opponent had struck.
   const int winner = std::min(event.attacker, 1);
@@ -210,7 +202,8 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
       const StrikeTable& strike = flight.table->strikes[s];
       const Tick begin = flight.launch.start + strike.strike.active_begin;
       const Tick over = flight.launch.start + strike.strike.active_end;
-      if (over <= from || over > to || spent(flight.launch, s) || victim.pending.valid()) continue;
+      if (over <= from || over > to || flight.launch.has_spent(s) || victim.pending.valid())
+        continue;
       if (!defense || victim.balance == 2) continue;
       const Tick guarded = victim.flight.launch.when(defense->begin);
       const Tick open = victim.flight.launch.when(defense->end);
@@ -222,7 +215,7 @@ void Duel::judge_evasions(Node& node, Tick from, Tick to) {
         continue;
       const std::int32_t full = side(i).clean_damage[flight.table->first_strike + s];
       credit(node, 1 - i, defense_points(side(1 - i).weights, full), Term::defense);
-      spend(attacker.flight.launch, s);
+      attacker.flight.launch.spend(s);
       if (events_ != nullptr) {
         DuelEvent event;
         event.tick = over;

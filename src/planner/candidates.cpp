@@ -248,7 +248,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const Frame& frame = other.flight.aimed;
   for (std::size_t i = 0; i < other.flight.table->strikes.size(); ++i) {
     const StrikeTable& strike = other.flight.table->strikes[i];
-    if (i < 8 && ((launch.spent >> i) & 1u) != 0) continue;
+    if (launch.has_spent(i)) continue;
     if (launch.start + strike.strike.active_end <= node.now) continue;
     if (reaching(aim_of(strike), frame.to_inner(at_now)) <= 0.2f) continue;
     Aspect::Threat threat;

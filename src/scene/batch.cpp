@@ -22,7 +22,7 @@ using nlohmann::json;
 
 constexpr std::size_t kLongestBout = 1u << 20;  // bytes
 
-tl::unexpected<Error> fault(const std::string& file, std::size_t line, std::string what) {
+tl::unexpected<Error> bout_fault(const std::string& file, std::size_t line, std::string what) {
   return input_error(file, fmt::format("line {}", line), std::move(what),
                      "give a bouts.jsonl as `ringcraft batch` wrote it");
 }
@@ -165,10 +165,10 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
     ++number;
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos)
-      return fault(file, number, "the file ends inside a line: it is cut off");
+      return bout_fault(file, number, "the file ends inside a line: it is cut off");
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
-    if (line.size() > kLongestBout) return fault(file, number, "longer than 1 MiB");
+    if (line.size() > kLongestBout) return bout_fault(file, number, "longer than 1 MiB");
     const json read = json::parse(line, nullptr, false);
     if (number == 1) {
       const auto word = [&](const char* key) {
@@ -178,16 +178,16 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
       };
       batch = {word("scene"), word("setup")};
       if (word("type") != "header" || batch.scene.empty() || batch.setup.empty())
-        return fault(file, number, "not the header line");
+        return bout_fault(file, number, "not the header line");
       continue;
     }
     if (const std::string what = wrong_with(read, batch.scene); !what.empty())
-      return fault(file, number, what);
+      return bout_fault(file, number, what);
     const auto seed = read.at("seed").get<std::uint64_t>();
     if (!batch.bouts.emplace(seed, std::string(line)).second)
-      return fault(file, number, fmt::format("seed {} stands there twice", seed));
+      return bout_fault(file, number, fmt::format("seed {} stands there twice", seed));
   }
-  if (number == 0) return fault(file, 1, "the file is empty");
+  if (number == 0) return bout_fault(file, 1, "the file is empty");
   return batch;
 }
 

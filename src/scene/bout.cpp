@@ -158,7 +158,7 @@ Launch Bout::executed(FighterId id, Launch launch) const {
 }
 
 // One tick of rest; the planner hears of it before its next decision.
-void Bout::tire(FighterId id) {
+void Bout::rest(FighterId id) {
   standing_[id.at()].condition.rest(static_cast<double>(kTickSeconds));
 }
 
@@ -244,7 +244,7 @@ void Bout::advance_one_tick() {
   stage_.show(state_.now);
   if (options_.progress && state_.now % kTicksPerSecond == 0) options_.progress(state_.now, end_);
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
-    tire(FighterId(i));
+    rest(FighterId(i));
     note_strikes(FighterId(i));
   }
   for (const Touch& touch : touches()) commit_touch(touch);
@@ -262,10 +262,9 @@ void Bout::note_strikes(FighterId id) {
   const Tick before = launch.clip_age(state_.now - 1);
   for (std::size_t i = 0; i < action.strikes.size(); ++i) {
     const Strike& strike = action.strikes[i];
-    const auto bit = static_cast<std::uint8_t>(1u << i);
     const auto reached = [&](Tick tick) { return before < tick && age >= tick; };
     const bool begins = reached(strike.active_begin);
-    const bool missed = reached(strike.active_end) && !(launch.spent & bit);
+    const bool missed = reached(strike.active_end) && !launch.has_spent(i);
     if (!begins && !missed) continue;
     Event event;
     event.tick = state_.now;
@@ -276,7 +275,7 @@ void Bout::note_strikes(FighterId id) {
     event.strike = strike.kind;
     event.fatigue = static_cast<float>(standing_[id.at()].condition.fatigue());
     record_.timeline.events.push_back(std::move(event));
-    if (missed) launch.spent |= bit;
+    if (missed) launch.spend(i);
   }
 }
 
@@ -303,9 +302,7 @@ std::vector<Bout::Touch> Bout::touches() const {
     const Action& action = library_.action(launch.action);
     const Tick age = launch.clip_age(state_.now);
     for (std::size_t s = 0; s < action.strikes.size(); ++s) {
-      const Strike& strike = action.strikes[s];
-      const bool active = age >= strike.active_begin && age < strike.active_end;
-      if (!active || (launch.spent >> s & 1u)) continue;
+      if (!action.strikes[s].active(age) || launch.has_spent(s)) continue;
       if (auto touch = touch_of(FighterId(i), s)) found.push_back(*touch);
     }
   }
@@ -317,7 +314,7 @@ void Bout::commit_touch(const Touch& touch) {
   const Action& attack = library_.action(touch.action);
   const Strike strike = attack.strikes.at(touch.strike);
   if (fighter(attacker).launch.action == touch.action) {
-    fighter(attacker).launch.spent |= static_cast<std::uint8_t>(1u << touch.strike);
+    fighter(attacker).launch.spend(touch.strike);
   }
   Event event;
   event.action = attack.name;
@@ -424,7 +421,6 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   begin(id, launch, std::move(answer.simulated), answer.sway);
   if (falls) let_off(id);
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
-  standing_[id.at()].fell_upon = 0;
 
   event.fall = false;
   event.type = falls ? EventType::knockdown : EventType::response;
@@ -462,8 +458,7 @@ bool Bout::strikes_now() const {
     const Tick age = state_.fighters[i].launch.clip_age(state_.now + 1);
     const std::vector<Strike>& strikes = action_of(FighterId(i)).strikes;
     for (std::size_t s = 0; s < strikes.size(); ++s) {
-      const bool active = age >= strikes[s].active_begin && age < strikes[s].active_end;
-      if (active && !(state_.fighters[i].launch.spent >> s & 1u)) return true;
+      if (strikes[s].active(age) && !state_.fighters[i].launch.has_spent(s)) return true;
     }
   }
   return false;

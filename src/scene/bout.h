@@ -58,7 +58,7 @@ class Bout {
              const Sway& sway = {});
   Launch executed(FighterId id, Launch launch) const;
   void show_planner(FighterId id);
-  void tire(FighterId id);
+  void rest(FighterId id);
   void note_strikes(FighterId id);
   std::vector<Touch> touches() const;
   std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;

@@ -74,7 +74,7 @@ constexpr double kMapPanel = 600, kMapTop = 84, kMapLegend = 60;  // px
 constexpr double kSquare = 540, kStrip = 150;                     // px: heights of a panel
 
 // One panel's values over two axes: points[row of `outer`][column of `inner`].
-struct Panel {
+struct MapPanel {
   std::string title;
   SweepRange across, along;  // polar: across is the direction, along the impulse
   std::vector<std::vector<const SweepPoint*>> points;  // [along][across]
@@ -82,7 +82,7 @@ struct Panel {
 
 class Drawing {
  public:
-  void panel(const Panel& panel, bool polar, double left) {
+  void panel(const MapPanel& panel, bool polar, double left) {
     left_ = left;
     if (!panel.title.empty())
       svg_ += text_at(left + kMapPanel / 2, kMapTop - 20, "middle", panel.title);
@@ -91,7 +91,7 @@ class Drawing {
   const std::string& svg() const { return svg_; }
 
  private:
-  void draw_polar(const Panel& panel) {
+  void draw_polar(const MapPanel& panel) {
     constexpr double kRadius = 215;  // px
     const double cx = left_ + kMapPanel / 2, cy = kMapTop + kSquare / 2 - 10;
     const std::vector<Span> ways = spans_of(panel.across.values, 30);
@@ -159,7 +159,7 @@ class Drawing {
         x, y, text);
   }
 
-  void draw_grid(const Panel& panel) {
+  void draw_grid(const MapPanel& panel) {
     constexpr double kLeft = 70, kRight = 20, kBelow = 60;
     const double x0 = left_ + kLeft, x1 = left_ + kMapPanel - kRight;
     const bool line = panel.along.values.size() == 1;  // one axis only: a strip
@@ -237,7 +237,7 @@ Order order_of(const HitSweep& sweep) {
   return {wide[0], wide.size() > 1 ? std::optional(wide[1]) : std::nullopt, false};
 }
 
-std::vector<Panel> panels_of(const HitSweep& sweep, const Order& order) {
+std::vector<MapPanel> panels_of(const HitSweep& sweep, const Order& order) {
   std::vector<std::size_t> stride(sweep.ranges.size(), 1);
   for (std::size_t i = sweep.ranges.size(); i-- > 1;) {
     stride[i - 1] = stride[i] * sweep.ranges[i].values.size();
@@ -246,10 +246,10 @@ std::vector<Panel> panels_of(const HitSweep& sweep, const Order& order) {
   for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
     if (i != order.across && i != order.along && sweep.ranges[i].values.size() > 1) rest = i;
   }
-  std::vector<Panel> panels;
+  std::vector<MapPanel> panels;
   const std::size_t count = rest ? sweep.ranges[*rest].values.size() : 1;
   for (std::size_t k = 0; k < count; ++k) {
-    Panel panel;
+    MapPanel panel;
     panel.across = sweep.ranges[order.across];
     if (order.along) {
       panel.along = sweep.ranges[*order.along];
@@ -298,13 +298,13 @@ std::string legend(const HitSweep& sweep, double width, double y) {
 
 std::string sweep_svg(const HitSweep& sweep) {
   const Order order = order_of(sweep);
-  const std::vector<Panel> panels = panels_of(sweep, order);
+  const std::vector<MapPanel> panels = panels_of(sweep, order);
   const double width = kMapPanel * static_cast<double>(panels.size());
   const double tall = order.along ? kSquare : kStrip;
   const double height = kMapTop + tall + kMapLegend;
   Drawing drawing;
   double left = 0;
-  for (const Panel& panel : panels) {
+  for (const MapPanel& panel : panels) {
     drawing.panel(panel, order.polar, left);
     left += kMapPanel;
   }

@@ -187,7 +187,7 @@ struct HitLine {
   HitReplay replay;
 };
 
-tl::unexpected<Error> fault(const std::string& file, std::size_t line, std::string what) {
+tl::unexpected<Error> event_fault(const std::string& file, std::size_t line, std::string what) {
   return input_error(file, fmt::format("line {}", line), std::move(what),
                      "give an events.jsonl as `ringcraft fight` wrote it");
 }
@@ -206,31 +206,31 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     const std::size_t end = events.find('\n');
     const std::string_view line = events.substr(0, end);
     if (end == std::string_view::npos) {
-      return fault(file, number, "the file ends inside a line: it is cut off");
+      return event_fault(file, number, "the file ends inside a line: it is cut off");
     }
     events.remove_prefix(end + 1);
-    if (line.size() > kLongestLine) return fault(file, number, "longer than 1 MiB");
+    if (line.size() > kLongestLine) return event_fault(file, number, "longer than 1 MiB");
     json event = json::parse(line, nullptr, false);
-    if (!event.is_object()) return fault(file, number, "not a JSON object");
+    if (!event.is_object()) return event_fault(file, number, "not a JSON object");
     const auto type = event.find("type");
-    if (type == event.end() || !type->is_string()) return fault(file, number, "no 'type'");
+    if (type == event.end() || !type->is_string()) return event_fault(file, number, "no 'type'");
     if (number == 1) {
-      if (*type != "header") return fault(file, number, "not the header line");
+      if (*type != "header") return event_fault(file, number, "not the header line");
       const auto version = event.find("version");
       if (version != event.end() && version->is_string()) all.version = *version;
     }
     if (*type != "hit" && *type != "block") continue;
     const auto text = event.find("replay");
     if (text == event.end() || !text->is_string()) {
-      return fault(file, number, "the hit has no 'replay'");
+      return event_fault(file, number, "the hit has no 'replay'");
     }
     std::string why;
     auto replay = read_replay(text->get_ref<const std::string&>(), why);
-    if (!replay) return fault(file, number, "'replay' " + why);
+    if (!replay) return event_fault(file, number, "'replay' " + why);
     event.erase(text);
     all.hits.push_back({number, std::move(event), std::move(*replay)});
   }
-  if (number == 0) return fault(file, 1, "the file is empty");
+  if (number == 0) return event_fault(file, 1, "the file is empty");
   return all;
 }
 

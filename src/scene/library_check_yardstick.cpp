@@ -66,7 +66,7 @@ double nearest(const Posture& a, const std::vector<Posture>& to, float tau) {
 
 bool boxes(const Action& action) {
   if (!is_authored(action)) return false;
-  if (action.kind == Kind::response || action.kind == Kind::get_up) return false;
+  if (action.forced()) return false;
   return std::all_of(action.strikes.begin(), action.strikes.end(), [](const Strike& strike) {
     const bool hand = strike.joint == Joint::left_hand || strike.joint == Joint::right_hand;
     return hand && strike.kind != StrikeKind::backfist;

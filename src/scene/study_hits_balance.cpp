@@ -19,12 +19,12 @@ namespace {
 
 constexpr std::array<float, 4> kWays{0, kPi, kPi / 2, -kPi / 2};
 constexpr std::array<const char*, 4> kWayNames{"fore", "aft", "left", "right"};
-constexpr float kMostTried = 150;  // N s
+constexpr float kHardestTried = 150;  // N s
 
 // The largest impulse, N s, for which `holds` is still true.
 template <class Holds>
 float threshold(const Holds& holds) {
-  float low = 0, high = kMostTried;
+  float low = 0, high = kHardestTried;
   for (int i = 0; i < 8; ++i) {
     const float middle = (low + high) / 2;
     (holds(middle) ? low : high) = middle;

@@ -55,8 +55,7 @@ MotionLibrary slowed_library(const MotionLibrary& library, float factor) {
   std::vector<Action> actions;
   actions.reserve(library.actions().size());
   for (const Action& action : library.actions()) {
-    const bool forced = action.kind == Kind::response || action.kind == Kind::get_up;
-    actions.push_back(forced ? action : slowed(action, factor));
+    actions.push_back(action.forced() ? action : slowed(action, factor));
   }
   return MotionLibrary(fmt::format("{} x {:.1f}", library.name(), factor), std::move(actions));
 }

@@ -232,6 +232,8 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_EQ(refused([](auto&) {}), "");
   EXPECT_THAT(refused([](auto& a) { a[1].strikes[0].active_end = 400; }), HasSubstr("jab_left"));
   EXPECT_THAT(refused([](auto& a) { a[1].strikes[0].joint = Joint::spine; }), HasSubstr("strike"));
+  EXPECT_THAT(refused([](auto& a) { a[1].strikes.resize(9, a[1].strikes[0]); }),
+              HasSubstr("jab_left"));
   EXPECT_THAT(refused([](auto& a) { a[2].defense->begin = -1; }), HasSubstr("guard"));
   EXPECT_THAT(refused([](auto& a) { a[4].response.reset(); }), HasSubstr("stagger"));
   EXPECT_THAT(refused([](auto& a) { a[0].clip.frames[3].hips.y = std::nanf(""); }),
