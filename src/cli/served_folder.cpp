@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/json_object.h"
 #include "base/markup.h"
 #include "cli/page_address.h"
 
@@ -91,17 +91,16 @@ std::string sentence_about(const fs::path& folder) {
     if (failed || size > kLargestReport || !fs::is_regular_file(folder / name, failed)) continue;
     const auto text = read_file(folder / name);
     if (!text) continue;
-    const auto json = nlohmann::json::parse(*text, nullptr, false);
-    if (!json.is_object()) continue;
+    std::string why;
+    const auto json = json_object(*text, why);
+    if (!json) continue;
     const auto word = [&](const char* key) {
-      const auto found = json.find(key);
-      if (found == json.end()) return std::string();
-      return found->is_string()
-                 ? found->get<std::string>()
-                 : found->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      const auto found = json->find(key);
+      if (found == json->end() || found->is_structured()) return std::string();
+      return found->is_string() ? found->get<std::string>() : found->dump();
     };
-    if (json.contains("title")) return word("title");
-    if (json.contains("scene"))
+    if (json->contains("title")) return word("title");
+    if (json->contains("scene"))
       return fmt::format("scene {}, seed {}, {} s", word("scene"), word("seed"),
                          word("duration_s"));
   }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/json_object.h"
 #include "base/tasks.h"
 #include "planner/impact_store.h"
 #include "scene/fight_files.h"
@@ -29,7 +30,6 @@ tl::unexpected<Error> bout_fault(const std::string& file, std::size_t line, std:
 
 // What is wrong with a report of `scene`; empty where nothing is.
 std::string wrong_with(const json& report, const std::string& scene) {
-  if (!report.is_object()) return "not a JSON object";
   const auto seed = report.find("seed");
   if (seed == report.end() || !seed->is_number_unsigned()) return "no 'seed'";
   const auto name = report.find("scene");
@@ -169,21 +169,23 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
     if (line.size() > kLongestBout) return bout_fault(file, number, "longer than 1 MiB");
-    const json read = json::parse(line, nullptr, false);
+    std::string why;
+    const auto read = json_object(line, why);
+    if (!read) return bout_fault(file, number, why);
     if (number == 1) {
       const auto word = [&](const char* key) {
-        return read.is_object() && read.contains(key) && read[key].is_string()
-                   ? read[key].get<std::string>()
-                   : std::string();
+        const auto found = read->find(key);
+        return found != read->end() && found->is_string() ? found->get<std::string>()
+                                                          : std::string();
       };
       batch = {word("scene"), word("setup")};
       if (word("type") != "header" || batch.scene.empty() || batch.setup.empty())
         return bout_fault(file, number, "not the header line");
       continue;
     }
-    if (const std::string what = wrong_with(read, batch.scene); !what.empty())
+    if (const std::string what = wrong_with(*read, batch.scene); !what.empty())
       return bout_fault(file, number, what);
-    const auto seed = read.at("seed").get<std::uint64_t>();
+    const auto seed = read->at("seed").get<std::uint64_t>();
     if (!batch.bouts.emplace(seed, std::string(line)).second)
       return bout_fault(file, number, fmt::format("seed {} stands there twice", seed));
   }

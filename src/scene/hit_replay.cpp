@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/json_object.h"
 #include "base/tasks.h"
 #include "io/events.h"
 #include "physics/response.h"
@@ -210,8 +211,10 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     }
     events.remove_prefix(end + 1);
     if (line.size() > kLongestLine) return event_fault(file, number, "longer than 1 MiB");
-    json event = json::parse(line, nullptr, false);
-    if (!event.is_object()) return event_fault(file, number, "not a JSON object");
+    std::string why;
+    auto read = json_object(line, why);
+    if (!read) return event_fault(file, number, why);
+    json& event = *read;
     const auto type = event.find("type");
     if (type == event.end() || !type->is_string()) return event_fault(file, number, "no 'type'");
     if (number == 1) {
@@ -224,7 +227,6 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     if (text == event.end() || !text->is_string()) {
       return event_fault(file, number, "the hit has no 'replay'");
     }
-    std::string why;
     auto replay = read_replay(text->get_ref<const std::string&>(), why);
     if (!replay) return event_fault(file, number, "'replay' " + why);
     event.erase(text);

@@ -123,6 +123,13 @@ TEST_F(ServedFolderTest, TheIndexNamesResultsAndEscapesWhatTheySay) {
   EXPECT_THAT(page, Not(HasSubstr("Hits")));
 }
 
+TEST_F(ServedFolderTest, TheIndexSaysNothingOfAReportThatIsNestedDeeply) {
+  const std::string deep = std::string(400'000, '[') + std::string(400'000, ']');
+  write("out/a <b> & c%/report.json", R"({"scene": )" + deep + R"(, "seed": {"a": 7}})");
+  EXPECT_THAT(served().index_page(), Not(HasSubstr("[")));
+  EXPECT_THAT(served().index_page(), HasSubstr("fight.html"));
+}
+
 TEST_F(ServedFolderTest, AMissingFolderAndAFileAreErrors) {
   EXPECT_FALSE(ServedFolder::open(base_ / "nothing"));
   EXPECT_FALSE(ServedFolder::open(base_ / "out" / "numbers.csv"));

@@ -113,8 +113,12 @@ TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
   for (const auto& [text, place, what] : std::vector<std::array<std::string, 3>>{
            {"", "line 1", "empty"},
            {"{}\n", "line 1", "header"},
+           {"[]\n", "line 1", "object"},
            {good.substr(0, third - 3), "line 2", "cut off"},
            {good.substr(0, second) + "[1]\n", "line 2", "object"},
+           {good.substr(0, second) + "{\"a\":" + std::string(99, '[') + std::string(99, ']') +
+                "}\n",
+            "line 2", "nested"},
            {good.substr(0, second) + R"({"seed":-1})" + "\n", "line 2", "seed"},
            {good.substr(0, second) + R"({"seed":1,"scene":"other"})" + "\n", "line 2", "yard"},
            {good.substr(0, second) + R"({"seed":1,"scene":"yard","fighters":[7]})" + "\n", "line 2",

@@ -160,6 +160,16 @@ TEST(HitReplay, HostileFilesAreErrorsWithTheLine) {
   }
 }
 
+TEST(HitReplay, AValueThatIsNestedDeeplyIsRefused) {
+  std::string text = hit_events();
+  const std::size_t begin = text.find("\"point\":") + 8, end = text.find(']', begin) + 1;
+  text.replace(begin, end - begin, std::string(60'000, '[') + std::string(60'000, ']'));
+  const auto report = replayed(text);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().place, "line 2");
+  EXPECT_THAT(report.error().what, HasSubstr("nested deeper than 32"));
+}
+
 TEST(HitReplay, AFightWithoutHitsHasNothingToDiffer) {
   const auto report = replayed("{\"type\":\"header\"}\n{\"type\":\"decision\"}\n");
   ASSERT_TRUE(report);
