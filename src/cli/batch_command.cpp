@@ -22,6 +22,14 @@ Result<Batch> bouts_in(const std::filesystem::path& folder) {
   return read_bouts(file.string(), *text);
 }
 
+// Of an output folder: what stands there is kept.
+Result<void> add_bouts_in(const std::filesystem::path& folder, Batch& batch) {
+  if (!std::filesystem::exists(folder / kBouts)) return {};
+  const auto before = bouts_in(folder);
+  if (!before) return tl::unexpected(before.error());
+  return add_bouts(batch, *before, (folder / kBouts).string());
+}
+
 }  // namespace
 
 int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
@@ -38,12 +46,7 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
   if (!library) return fail(library.error());
 
   Batch batch = batch_of(*scene, *library);
-  if (std::filesystem::exists(folder / kBouts)) {
-    const auto before = bouts_in(folder);
-    if (!before) return fail(before.error());
-    const auto added = add_bouts(batch, *before, (folder / kBouts).string());
-    if (!added) return fail(added.error());
-  }
+  if (const auto added = add_bouts_in(folder, batch); !added) return fail(added.error());
   StudyRun run{options.threads, &interrupted, {}};
   if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   const auto kept = [&](const Batch& so_far) {
@@ -70,8 +73,12 @@ int run_merge(const std::vector<std::string>& folders, const CommonOptions& opti
     const auto added = add_bouts(*batch, *more, (std::filesystem::path(folder) / kBouts).string());
     if (!added) return fail(added.error());
   }
-  if (const auto made = make_output_folder(found.out); !made) return fail(made.error());
-  const auto written = write_file(std::filesystem::path(found.out) / kBouts, bouts_jsonl(*batch));
+  const std::filesystem::path folder = found.out;
+  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto lock = lock_folder(folder);
+  if (!lock) return fail(lock.error());
+  if (const auto added = add_bouts_in(folder, *batch); !added) return fail(added.error());
+  const auto written = write_file(folder / kBouts, bouts_jsonl(*batch));
   if (!written) return fail(written.error());
   return finish_study(summary_of(*batch), 0, found);
 }

@@ -198,7 +198,8 @@ Result<void> add_bouts(Batch& batch, const Batch& more, const std::string& file)
     return usage_error(file, "line 1",
                        fmt::format("scene {} of setup {}, the others are of scene {} and setup {}",
                                    more.scene, more.setup, batch.scene, batch.setup),
-                       "merge bouts of one scene, one library and one version of the program");
+                       "merge bouts of one scene, one library and one version of the program, or "
+                       "choose another folder with --out");
   }
   for (const auto& [seed, report] : more.bouts) {
     const auto [at, added] = batch.bouts.emplace(seed, report);
