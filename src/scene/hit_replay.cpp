@@ -21,6 +21,7 @@ constexpr std::uint8_t kVersion = 1;
 constexpr int kHashBytes = 8;
 constexpr std::size_t kLongestText = 16'384;
 constexpr std::size_t kLongestLine = 1u << 20;  // bytes: a parsed line takes many times its size
+constexpr std::size_t kLongestWord = 64;        // bytes, of a compared value
 constexpr float kFarthestFigure = 10'000;       // m, m/s, N s, rad: beyond it nothing is a fight
 
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
@@ -152,8 +153,33 @@ json recomputed(const HitReplay& replay, ImpactOutcome outcome) {
   return event_json(event, false);
 }
 
+// What of a hit's event is computed, and compared.
+constexpr const char* kCompared[] = {"type",
+                                     "part",
+                                     "point",
+                                     "impulse",
+                                     "impulse_Ns",
+                                     "speed_mps",
+                                     "effective_mass_kg",
+                                     "head_spin_radps",
+                                     "damage",
+                                     "response",
+                                     "steps",
+                                     "direction_rad",
+                                     "knockout"};
+
+// A word, a number or three: no more than a hit has, so that what is kept of a line is small.
+bool short_value(const json& value) {
+  if (value.is_array()) {
+    return value.size() <= 3 &&
+           std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
+  }
+  if (value.is_string()) return value.get_ref<const std::string&>().size() <= kLongestWord;
+  return !value.is_object();
+}
+
 std::string text_of(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, 80);
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 // What stands otherwise in the event than the replay gives it; empty where nothing does.
@@ -170,9 +196,7 @@ std::string differences(const HitReplay& replay, const json& event) {
         replay.outcome.margin, outcome.margin, replay.outcome.head_spin, outcome.head_spin);
   }
   const json again = recomputed(replay, outcome);
-  for (const char* key :
-       {"type", "part", "point", "impulse", "impulse_Ns", "speed_mps", "effective_mass_kg",
-        "head_spin_radps", "damage", "response", "steps", "direction_rad", "knockout"}) {
+  for (const char* key : kCompared) {
     const auto said = event.find(key);
     const bool there = said != event.end();
     if (there && *said == again[key]) continue;
@@ -184,7 +208,7 @@ std::string differences(const HitReplay& replay, const json& event) {
 
 struct HitLine {
   std::size_t number = 0;  // of the line, from 1
-  json event;              // without its replay
+  json event;              // what is compared of it
   HitReplay replay;
 };
 
@@ -229,8 +253,16 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     }
     auto replay = read_replay(text->get_ref<const std::string&>(), why);
     if (!replay) return event_fault(file, number, "'replay' " + why);
-    event.erase(text);
-    all.hits.push_back({number, std::move(event), std::move(*replay)});
+    json compared;
+    for (const char* key : kCompared) {
+      const auto said = event.find(key);
+      if (said == event.end()) continue;
+      if (!short_value(*said)) {
+        return event_fault(file, number, fmt::format("'{}' is nothing that a hit has", key));
+      }
+      compared[key] = std::move(*said);
+    }
+    all.hits.push_back({number, std::move(compared), std::move(*replay)});
   }
   if (number == 0) return event_fault(file, 1, "the file is empty");
   return all;

@@ -170,6 +170,28 @@ TEST(HitReplay, AValueThatIsNestedDeeplyIsRefused) {
   EXPECT_THAT(report.error().what, HasSubstr("nested deeper than 32"));
 }
 
+TEST(HitReplay, AComparedValueIsAWordANumberOrThree) {
+  const std::string whole = hit_events();
+  const auto with = [&](const std::string& key, const std::string& value) {
+    std::string text = whole;
+    const std::size_t begin = text.find("\"" + key + "\":") + key.size() + 3;
+    const std::size_t end = text[begin] == '[' ? text.find(']', begin) + 1 : text.find(',', begin);
+    return text.replace(begin, end - begin, value);
+  };
+  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
+           {"point", "[0,0,0,0]"},
+           {"impulse", "[[],[],[]]"},
+           {"damage", "{}"},
+           {"part", '"' + std::string(99, 'x') + '"'}}) {
+    const auto report = replayed(with(key, value));
+    ASSERT_FALSE(report) << key;
+    EXPECT_EQ(report.error().place, "line 2");
+    EXPECT_THAT(report.error().what, HasSubstr("'" + key + "'"));
+  }
+  EXPECT_EQ(replayed(with("damage", "null"))->differ, 1u);
+  EXPECT_EQ(replayed(with("part", "\"\""))->differ, 1u);
+}
+
 TEST(HitReplay, AFightWithoutHitsHasNothingToDiffer) {
   const auto report = replayed("{\"type\":\"header\"}\n{\"type\":\"decision\"}\n");
   ASSERT_TRUE(report);
