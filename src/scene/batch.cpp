@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,6 +23,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLongestBout = 1u << 20;  // bytes
+constexpr std::size_t kMostFighters = 16;       // as a scene may have
+constexpr std::size_t kLongestName = 512;       // bytes, as in a scene: it stands by each measure
 
 tl::unexpected<Error> bout_fault(const std::string& file, std::size_t line, std::string what) {
   return input_error(file, fmt::format("line {}", line), std::move(what),
@@ -36,10 +39,14 @@ std::string wrong_with(const json& report, const std::string& scene) {
   if (name == report.end() || *name != scene) return "not a bout of scene " + scene;
   const auto fighters = report.find("fighters");
   if (fighters == report.end() || !fighters->is_array()) return "no 'fighters'";
+  if (fighters->size() > kMostFighters)
+    return fmt::format("{} fighters, at most {} are in a fight", fighters->size(), kMostFighters);
   for (const json& fighter : *fighters) {
     if (!fighter.is_object()) return "a fighter is not an object";
     const auto called = fighter.find("name");
     if (called == fighter.end() || !called->is_string()) return "a fighter has no 'name'";
+    if (called->get_ref<const std::string&>().size() > kLongestName)
+      return fmt::format("a fighter's name is longer than {} bytes", kLongestName);
   }
   return {};
 }
@@ -63,13 +70,11 @@ class Measures {
 
  private:
   Measure& at(const std::string& of, const std::string& name) {
-    const auto found = std::find_if(all_.begin(), all_.end(), [&](const Measure& one) {
-      return one.of == of && one.name == name;
-    });
-    if (found != all_.end()) return *found;
-    all_.push_back({of, name});
-    return all_.back();
+    const auto [place, added] = places_.try_emplace({of, name}, all_.size());
+    if (added) all_.push_back({of, name});
+    return all_[place->second];
   }
+  std::map<std::pair<std::string, std::string>, std::size_t> places_;  // in all_
   std::vector<Measure> all_;
 };
 

@@ -105,6 +105,14 @@ TEST(BatchSummary, MeansHaveIntervalsAndNamesakesStandApart) {
     EXPECT_NE(std::get<std::string>(cells[1]), "deepest_at_s") << "moments have no mean";
 }
 
+// The line of a bout of the yard between fighters of these names.
+std::string with_fighters(const std::vector<std::string>& names) {
+  std::string fighters;
+  for (const std::string& name : names)
+    fighters += (fighters.empty() ? "" : ",") + (R"({"name":")" + name + "\"}");
+  return R"({"seed":1,"scene":"yard","fighters":[)" + fighters + "]}\n";
+}
+
 TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
   const std::string good = bouts_jsonl(by_hand());
   ASSERT_TRUE(read_bouts("b", good));
@@ -123,12 +131,20 @@ TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
            {good.substr(0, second) + R"({"seed":1,"scene":"other"})" + "\n", "line 2", "yard"},
            {good.substr(0, second) + R"({"seed":1,"scene":"yard","fighters":[7]})" + "\n", "line 2",
             "fighter"},
+           {good.substr(0, second) + with_fighters(std::vector<std::string>(17, "A")), "line 2",
+            "17 fighters, at most 16"},
+           {good.substr(0, second) + with_fighters({std::string(513, 'A')}), "line 2", "name"},
            {good + line, "line 6", "twice"}}) {
     const auto read = read_bouts("b", text);
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().place, place) << text;
     EXPECT_NE(read.error().what.find(what), std::string::npos) << read.error().what;
   }
+}
+
+TEST(BatchSummary, SixteenFightersAreRead) {
+  const std::string header = "{\"type\":\"header\",\"scene\":\"yard\",\"setup\":\"0\"}\n";
+  EXPECT_TRUE(read_bouts("b", header + with_fighters(std::vector<std::string>(16, "A"))));
 }
 
 TEST(BatchSummary, OnlyBoutsOfOneSetupAreAdded) {
