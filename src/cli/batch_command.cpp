@@ -36,6 +36,13 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
                       const CommonOptions& options) {
   const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
+  const std::uint64_t last_start = kMostSeed - (static_cast<std::uint64_t>(asked.count) - 1);
+  if (scene->seed > last_start) {
+    return fail({ErrorKind::usage, "--count", "",
+                 fmt::format("{} bouts from seed {} on go beyond the largest seed, {}", asked.count,
+                             scene->seed, kMostSeed),
+                 fmt::format("begin at --seed {} or below, or run fewer", last_start)});
+  }
   CommonOptions found = options;
   if (found.out.empty()) found.out = "out/batch_" + scene->name;
   const std::filesystem::path folder = found.out;

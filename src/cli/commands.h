@@ -12,6 +12,9 @@
 
 namespace ringcraft {
 
+// The largest seed that JSON holds exactly, as the schema of scenes says.
+inline constexpr std::uint64_t kMostSeed = (std::uint64_t{1} << 53) - 1;
+
 // What all commands understand.
 struct CommonOptions {
   std::string out;  // output folder; empty: out/<scene>

@@ -19,9 +19,6 @@ namespace ringcraft {
 
 namespace {
 
-// The largest that JSON holds exactly, as the schema of scenes says.
-constexpr std::uint64_t kMostSeed = (std::uint64_t{1} << 53) - 1;
-
 void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
   if (overrides != Overrides::none) {
