@@ -244,6 +244,7 @@ class Checker {
           fmt::format("{} has {}, at most {} are allowed", name, count(size),
                       schema["maxItems"].dump()),
           remedy_for_items(schema, "remove"));
+      return;  // a fault more for each of very many says no more
     }
     if (!schema.contains("items")) return;
     for (std::size_t i = 0; i < size; ++i) {

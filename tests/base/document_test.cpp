@@ -27,7 +27,8 @@ constexpr const char* kSchema = R"({
     "colour": {"type": ["string", "array"], "pattern": "^#[0-9a-f]{6}$",
                "items": {"type": "number"}, "minItems": 3, "maxItems": 3},
     "liked": {"type": "object", "additionalProperties": {"type": "number"}},
-    "fighter": {"type": "array", "minItems": 2, "items": {"$ref": "#/definitions/fighter"}}
+    "fighter": {"type": "array", "minItems": 2, "maxItems": 9,
+                "items": {"$ref": "#/definitions/fighter"}}
   },
   "definitions": {
     "fighter": {"type": "object", "additionalProperties": false, "required": ["style"],
@@ -136,6 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "'fighter' has 1 entry, at least 2", "add entries"},
         BadInput{"TooMany", "name = \"a\"\ncolour = [1, 2, 3, 4]\n", "line 2",
                  "'colour' has 4 entries, at most 3", "remove entries"},
+        BadInput{"TooManyFaulty", "name = \"a\"\n" + repeated("[[fighter]]\nstile = 1\n", 10),
+                 "line 2", "'fighter' has 10 entries, at most 9", "remove entries"},
         BadInput{"WrongElement", "name = \"a\"\ncolour = [1,\n2,\n\"x\"]\n", "line 4",
                  "'colour.2' is a string", "write a number"},
         BadInput{"WrongPattern", "name = \"a\"\ncolour = \"red\"\n", "line 2",
