@@ -11,6 +11,7 @@
 #include "capture/profile.h"
 #include "cli/commands.h"
 #include "cli/scene_inputs.h"
+#include "io/outputs.h"
 #include "scene/fight.h"
 #include "scene/fight_files.h"
 
@@ -54,6 +55,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
               const CommonOptions& options) {
   const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
+  if (const auto page = page_template(); !page) return fail(page.error());
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("out") / scene->name
                                            : std::filesystem::path(options.out);

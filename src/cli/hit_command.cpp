@@ -194,6 +194,7 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   if (!library) return fail(library.error());
   const std::filesystem::path folder = options.out.empty() ? "out/hit" : options.out;
   if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, folder);
+  if (const auto page = page_template(); !page) return fail(page.error());
   const auto answer = simulate_hit(*library, *query);
   if (!answer) return fail(answer.error());
 

@@ -44,6 +44,10 @@ std::string fighter_vrma(const FighterLook& look, const FighterTrack& track);
 std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook>& looks,
                          const nlohmann::json& header);
 
+// What a page is made of: page.html of the folder in RINGCRAFT_VIEWER, else of viewer/dist. To be
+// asked for before long work whose page would have no template.
+Result<std::string> page_template();
+
 // One self-contained page that opens from file://: the GLB and the events are embedded.
 Result<std::string> fight_html(const std::string& glb, const std::string& events,
                                const nlohmann::json& report);

@@ -56,52 +56,52 @@ std::string inside_script(std::string_view json) {
   return text;
 }
 
-struct Place {
-  std::string_view mark;
-  std::string filling;
-  std::size_t at = 0;  // in the template
-};
+// Where what is filled in stands, in the order of the template.
+constexpr std::array<std::string_view, 3> kPlaces = {"@@RINGCRAFT_GLB@@", "@@RINGCRAFT_EVENTS@@",
+                                                     "@@RINGCRAFT_REPORT@@"};
 
 }  // namespace
 
-Result<std::string> fight_html(const std::string& glb, const std::string& events,
-                               const nlohmann::json& report) {
+Result<std::string> page_template() {
   const std::filesystem::path path = viewer_folder() / "page.html";
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) {
     return input_error(path.string(), "", "the page's template is missing", kRemedy);
   }
-  const auto page = read_file(path);
-  if (!page) return tl::unexpected(page.error());
-
-  // In the order of the template; all are found before anything is filled in, so what a fight holds
-  // is never taken for a place.
-  const auto replace = nlohmann::json::error_handler_t::replace;
-  std::array<Place, 3> places = {
-      Place{"@@RINGCRAFT_GLB@@", base64(glb)},
-      Place{"@@RINGCRAFT_EVENTS@@", inside_script(events)},
-      Place{"@@RINGCRAFT_REPORT@@", inside_script(report.dump(-1, ' ', false, replace))},
-  };
-  std::size_t from = 0, size = page->size();
-  for (Place& place : places) {
-    place.at = page->find(place.mark, from);
-    if (place.at == std::string::npos ||
-        page->find(place.mark, place.at + 1) != std::string::npos) {
+  auto page = read_file(path);
+  if (!page) return page;
+  std::size_t from = 0;
+  for (const std::string_view place : kPlaces) {
+    const std::size_t at = page->find(place, from);
+    if (at == std::string::npos || page->find(place, at + 1) != std::string::npos) {
       return input_error(path.string(), "",
-                         "not the page's template: it must hold " + std::string(place.mark) +
+                         "not the page's template: it must hold " + std::string(place) +
                              " exactly once, in its place",
                          kRemedy);
     }
-    from = place.at + place.mark.size();
-    size += place.filling.size();
+    from = at + place.size();
   }
+  return page;
+}
 
+Result<std::string> fight_html(const std::string& glb, const std::string& events,
+                               const nlohmann::json& report) {
+  auto page = page_template();
+  if (!page) return page;
+  const auto replace = nlohmann::json::error_handler_t::replace;
+  const std::array<std::string, 3> fillings = {base64(glb), inside_script(events),
+                                               inside_script(report.dump(-1, ' ', false, replace))};
+  std::size_t size = page->size();
+  for (const std::string& filling : fillings) size += filling.size();
+
+  // Places are looked for in the template alone, so what a fight holds is never taken for one.
   std::string html;
   html.reserve(size);
-  from = 0;
-  for (const Place& place : places) {
-    html.append(*page, from, place.at - from).append(place.filling);
-    from = place.at + place.mark.size();
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    const std::size_t at = page->find(kPlaces[i], from);
+    html.append(*page, from, at - from).append(fillings[i]);
+    from = at + kPlaces[i].size();
   }
   return html.append(*page, from, std::string::npos);
 }
