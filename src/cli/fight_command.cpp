@@ -64,6 +64,12 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
+  const auto wants = [&](std::string_view format) {
+    return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
+  };
+  FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
+  if (wants("bvh")) extras.bvh = *skeleton;
+  if (const auto may = may_write_fight(folder, *scene, extras); !may) return fail(may.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
 
@@ -84,11 +90,6 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) fmt::print(stderr, "\n");
 
-  const auto wants = [&](std::string_view format) {
-    return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
-  };
-  FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
-  if (wants("bvh")) extras.bvh = *skeleton;
   const auto summary =
       write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());

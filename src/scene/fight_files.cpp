@@ -76,6 +76,33 @@ std::string fight_report(const SceneFile& scene, const MotionLibrary& library,
       .dump();
 }
 
+std::vector<std::string> fight_file_names(std::size_t fighters, const FightExtras& extras) {
+  std::vector<std::string> names = {"fight.glb", "events.jsonl", "report.json", "timing.json",
+                                    "fight.html"};
+  for (std::size_t i = 0; i < fighters; ++i) {
+    if (extras.bvh) names.push_back(fmt::format("fighter{}.bvh", i));
+    if (extras.vrma) names.push_back(fmt::format("fighter{}.vrma", i));
+  }
+  return names;
+}
+
+Result<void> may_write_fight(const std::filesystem::path& folder, const SceneFile& scene,
+                             const FightExtras& extras) {
+  std::vector<std::filesystem::path> inputs = {scene.path, scene.library};
+  for (const SceneFighter& fighter : scene.fighters) {
+    if (!fighter.character.empty()) inputs.push_back(fighter.character);
+  }
+  for (const std::string& name : fight_file_names(scene.fighters.size(), extras)) {
+    for (const std::filesystem::path& input : inputs) {
+      std::error_code not_there;
+      if (!std::filesystem::equivalent(folder / name, input, not_there)) continue;
+      return input_error(input.string(), "", "the scene needs it and the fight would overwrite it",
+                         "name another output folder with -o");
+    }
+  }
+  return {};
+}
+
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
                                  double wall_seconds, int threads, const FightExtras& extras) {
@@ -89,21 +116,15 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
   const ClockFacts clock{wall_seconds, threads, record.decision_ms, record.impulse_step_us};
   const std::string timing = timing_json(record.timeline, clock).dump(1) + "\n";
   const std::string report_text = report.dump(1) + "\n";
-  std::vector<std::pair<std::string, std::string>> files = {{"fight.glb", glb},
-                                                            {"events.jsonl", events},
-                                                            {"report.json", report_text},
-                                                            {"timing.json", timing},
-                                                            {"fight.html", *page}};
+  std::vector<std::string> files = {glb, events, report_text, timing, *page};
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const FighterTrack& track = record.timeline.tracks[i];
-    if (extras.bvh)
-      files.emplace_back(fmt::format("fighter{}.bvh", i),
-                         fighter_bvh(looks[i].body.skeleton, track, *extras.bvh));
-    if (extras.vrma)
-      files.emplace_back(fmt::format("fighter{}.vrma", i), fighter_vrma(looks[i], track));
+    if (extras.bvh) files.push_back(fighter_bvh(looks[i].body.skeleton, track, *extras.bvh));
+    if (extras.vrma) files.push_back(fighter_vrma(looks[i], track));
   }
-  for (const auto& [name, bytes] : files) {
-    if (const auto written = write_file(folder / name, bytes); !written) {
+  const std::vector<std::string> names = fight_file_names(looks.size(), extras);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto written = write_file(folder / names[i], files[i]); !written) {
       return tl::unexpected(written.error());
     }
   }
