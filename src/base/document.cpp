@@ -22,6 +22,7 @@ static constexpr void expect(bool holds) {
 
 #include "base/file.h"
 #include "base/schema.h"
+#include "base/utf8.h"
 
 namespace ringcraft {
 namespace {
@@ -249,6 +250,10 @@ Result<void> set_value(Document& document, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     return usage_error("--set " + assignment, "", "not an assignment", "write path.to.key=value");
+  }
+  if (!is_utf8(assignment)) {
+    return usage_error("--set " + clean_name(assignment), "", "not UTF-8",
+                       "write the value in UTF-8, as the terminal does in a UTF-8 locale");
   }
   const auto value = set_text(assignment.substr(equals + 1), assignment);
   if (!value) return tl::unexpected(value.error());

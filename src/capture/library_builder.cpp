@@ -10,6 +10,7 @@
 
 #include "base/document.h"
 #include "base/file.h"
+#include "base/utf8.h"
 #include "capture/cut.h"
 #include "capture/library_file.h"
 #include "capture/library_responses.h"
@@ -333,7 +334,8 @@ Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
     if (!others) return tl::unexpected(others.error());
     add_missing_responses(*actions, std::move(*others), settings.responses_from, notes);
   }
-  std::string name = std::filesystem::weakly_canonical(folder).filename().string();
+  const std::string name =
+      clean_name(std::filesystem::weakly_canonical(folder).filename().string());
   return checked(folder, connected_library(name, std::move(*actions), std::move(notes), settings));
 }
 

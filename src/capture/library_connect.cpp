@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
 #include "capture/library_builder.h"
 #include "motion/motion_graph_connect.h"
 
@@ -31,6 +32,9 @@ std::vector<bool> on_paths(const MotionLibrary& library) {
 MotionLibrary connected_library(const std::string& name, std::vector<Action> actions,
                                 std::vector<std::string> notes,
                                 const LibraryBuildSettings& settings) {
+  // What comes from paths need not be UTF-8; a library's text is.
+  for (Action& action : actions) action.source = clean_name(action.source, std::string::npos);
+  for (std::string& note : notes) note = clean_name(note, std::string::npos);
   const Skeleton skeleton = canonical_skeleton();
   const StateMachineSettings machine;
   // What ends in the other stance leads nowhere in this one.

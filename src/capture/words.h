@@ -5,15 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "base/utf8.h"
+
 namespace ringcraft {
 
 bool is_space(char c);
 
 // Lower-case copy (ASCII), for keywords.
 std::string lowered(std::string_view word);
-
-// At most 200 bytes of UTF-8: what is no UTF-8 is taken for Latin-1, control characters become '?'.
-std::string clean_name(std::string_view name);
 
 // A word of the file for a message: short and printable.
 std::string in_quotes(std::string_view word);

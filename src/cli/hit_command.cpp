@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
 #include "io/outputs.h"
@@ -213,10 +214,10 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   const auto written = write_files(folder, {{"hit.glb", glb},
                                             {"hit.html", *page},
                                             {"events.jsonl", events},
-                                            {"hit.json", numbers.dump(1) + "\n"}});
+                                            {"hit.json", json_text(numbers, 1) + "\n"}});
   if (!written) return fail(written.error());
   if (options.json) {
-    fmt::print("{}\n", numbers.dump(1));
+    fmt::print("{}\n", json_text(numbers, 1));
   } else {
     fmt::print("{}; open {}\n", sentence_of(*query, *answer), (folder / "hit.html").string());
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/utf8.h"
 #include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
@@ -94,7 +95,7 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
     fmt::print(stderr, "built in {:.1f} s\n", took.count());
   }
   if (options.json) {
-    fmt::print("{}\n", summary.dump(1));
+    fmt::print("{}\n", json_text(summary, 1));
     return 0;
   }
   const auto number = [&](const char* key) { return summary[key].get<std::size_t>(); };

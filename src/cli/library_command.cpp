@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "capture/canonical.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
@@ -46,7 +47,7 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
                       {"leads_to", m.leads_to},
                       {"source", m.source}});
     }
-    fmt::print("{}\n", rows.dump(1));
+    fmt::print("{}\n", json_text(rows, 1));
     return 0;
   }
   const std::filesystem::path folder = options.out.empty() ? "out/library" : options.out;
@@ -178,7 +179,7 @@ int run_library_check(const std::string& name, const CheckHeights& heights,
   if (!as_tall(ratio)) library = fitted_library(*library, ratio);
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);
   if (options.json) {
-    fmt::print("{}\n", json_of(check).dump(1));
+    fmt::print("{}\n", json_text(json_of(check), 1));
   } else {
     if (!options.quiet) print_table(check);
     for (const ActionMeasures& m : check.actions) {

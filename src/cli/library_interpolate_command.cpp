@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/quantile.h"
 #include "base/random.h"
+#include "base/utf8.h"
 #include "capture/filmstrip.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
@@ -185,7 +186,7 @@ int run_library_interpolate(const std::string& name, const InterpolateOptions& a
     sum.add(figures);
   }
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"families", rows}, {"notes", notes}}.dump(1));
+    fmt::print("{}\n", json_text(nlohmann::json{{"families", rows}, {"notes", notes}}, 1));
   } else {
     for (const auto& [kind, sum] : all) {
       print_row(sum);

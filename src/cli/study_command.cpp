@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "capture/canonical.h"
 #include "capture/library_file.h"
 #include "cli/ranges.h"
@@ -86,7 +87,7 @@ Result<Action> motion_of(const std::string& name, const MotionLibrary& library) 
   const auto read = read_canonical(name, library.skeleton());
   if (!read) return tl::unexpected(read.error());
   Action action;
-  action.name = std::filesystem::path(name).stem().string();
+  action.name = clean_name(std::filesystem::path(name).stem().string());
   action.clip = from_origin(library.skeleton(), read->clip);
   action.source = name;
   return action;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/utf8.h"
+
 namespace ringcraft {
 
 static_assert(std::endian::native == std::endian::little,
@@ -71,7 +73,8 @@ class BytesIn {
     const std::size_t size = get_count(1);
     std::string text(bytes_.substr(at_, size));
     at_ += size;
-    return text;
+    if (!is_utf8(text)) ok_ = false;  // no report could hold it
+    return ok_ ? text : std::string();
   }
   bool ok() const { return ok_; }
   bool done() const { return ok_ && at_ == bytes_.size(); }

@@ -1,6 +1,7 @@
 #include "planner/style.h"
 
 #include "base/document.h"
+#include "base/utf8.h"
 
 namespace ringcraft {
 
@@ -9,7 +10,7 @@ Result<Style> read_style(const std::filesystem::path& path) {
   if (!document) return tl::unexpected(document.error());
   const nlohmann::json& value = document->value;
   Style style;
-  style.name = value.value("name", path.stem().string());
+  style.name = value.value("name", clean_name(path.stem().string()));
   const auto read = [&](const char* key, double& field) { field = value.value(key, field); };
   read("horizon_s", style.horizon_s);
   read("location_weight", style.location_weight);

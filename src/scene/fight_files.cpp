@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "io/bvh_writer.h"
 #include "io/report.h"
 
@@ -72,8 +73,8 @@ std::string text_of(const nlohmann::json& report, const std::filesystem::path& p
 
 std::string fight_report(const SceneFile& scene, const MotionLibrary& library,
                          const FightRecord& record) {
-  return report_json(record.timeline, looks_of(scene, record, {}), library, facts_of(scene, record))
-      .dump();
+  return json_text(
+      report_json(record.timeline, looks_of(scene, record, {}), library, facts_of(scene, record)));
 }
 
 std::vector<std::string> fight_file_names(std::size_t fighters, const FightExtras& extras) {
@@ -115,7 +116,7 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
   if (!page) return tl::unexpected(page.error());
   const ClockFacts clock{wall_seconds, threads, record.decision_ms, record.impulse_step_us};
   const std::string timing = timing_json(record.timeline, clock).dump(1) + "\n";
-  const std::string report_text = report.dump(1) + "\n";
+  const std::string report_text = json_text(report, 1) + "\n";
   std::vector<std::string> files = {glb, events, report_text, timing, *page};
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const FighterTrack& track = record.timeline.tracks[i];
@@ -128,7 +129,7 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
       return tl::unexpected(written.error());
     }
   }
-  return FightSummary{report.dump(1), text_of(report, folder / "fight.html")};
+  return FightSummary{json_text(report, 1), text_of(report, folder / "fight.html")};
 }
 
 }  // namespace ringcraft

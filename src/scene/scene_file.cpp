@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/schema.h"
+#include "base/utf8.h"
 
 namespace ringcraft {
 namespace {
@@ -88,7 +89,7 @@ class Reader {
 
   Result<SceneFile> read() {
     scene_.path = document_.path;
-    scene_.name = value_.value("name", document_.path.stem().string());
+    scene_.name = value_.value("name", clean_name(document_.path.stem().string()));
     scene_.duration = std::max<Tick>(1, ticks(value_["duration_s"].get<double>()));
     scene_.seed = value_.value("seed", scene_.seed);
     scene_.ring = value_.value("ring_m", scene_.ring);
@@ -288,7 +289,7 @@ Result<BodySpec> read_body(const fs::path& path) {
   if (!document) return tl::unexpected(document.error());
   const json& value = document->value;
   BodySpec body;
-  body.name = value.value("name", path.stem().string());
+  body.name = value.value("name", clean_name(path.stem().string()));
   body.height = value["height_m"].get<float>();
   body.mass = value["mass_kg"].get<float>();
   body.sex = value.value("sex", "male") == "female" ? Sex::female : Sex::male;

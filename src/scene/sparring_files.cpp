@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/markup.h"
+#include "base/utf8.h"
 
 namespace ringcraft {
 
@@ -90,7 +91,7 @@ std::string table_json(const std::string& name, std::span<const Action> actions,
     }
     attacks.push_back({{"attack", actions[attack.at()].name}, {"defenses", std::move(defenses)}});
   }
-  return nlohmann::json{{"library", name}, {"attacks", std::move(attacks)}}.dump(1) + "\n";
+  return json_text(nlohmann::json{{"library", name}, {"attacks", std::move(attacks)}}, 1) + "\n";
 }
 
 std::string table_html(std::span<const Action> actions, const OffenseDefenseTable& table) {

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/markup.h"
+#include "base/utf8.h"
 
 namespace ringcraft {
 namespace {
@@ -83,7 +84,7 @@ std::string study_json(const Study& study) {
                                     {"said", study.said},
                                     {"interrupted", study.interrupted},
                                     {"rows", rows_json(study.table)}};
-  return json.dump(1) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 std::string study_text(const StudyTable& table) {
@@ -121,11 +122,12 @@ std::string study_html(const Study& study) {
 Result<void> write_study(const std::filesystem::path& folder, const Study& study) {
   const nlohmann::ordered_json timing{
       {"version", RINGCRAFT_VERSION}, {"study", study.name}, {"rows", rows_json(study.timing)}};
-  const std::pair<const char*, std::string> files[] = {{"study.csv", study_csv(study.table)},
-                                                       {"study.json", study_json(study)},
-                                                       {"study.svg", study_svg(study)},
-                                                       {"study.html", study_html(study)},
-                                                       {"timing.json", timing.dump(1) + "\n"}};
+  const std::pair<const char*, std::string> files[] = {
+      {"study.csv", study_csv(study.table)},
+      {"study.json", study_json(study)},
+      {"study.svg", study_svg(study)},
+      {"study.html", study_html(study)},
+      {"timing.json", json_text(timing, 1) + "\n"}};
   for (const auto& [name, bytes] : files) {
     if (auto written = write_file(folder / name, bytes); !written) return written;
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/utf8.h"
 #include "scene/bout.h"
 
 namespace ringcraft {
@@ -208,12 +209,12 @@ std::string tree_json(const SceneTree& of) {
         {"without_exact_value", inexact},
         {"complete", tree.complete()}}},
   };
-  std::string text = head.dump(1);
+  std::string text = json_text(head, 1);
   text.erase(text.rfind('}'));
   while (text.back() == '\n') text.pop_back();
   text += ",\n \"nodes\": [\n";
   for (std::size_t id = 0; id < tree.nodes.size(); ++id) {
-    text += "  " + node_json(of, id).dump() + (id + 1 < tree.nodes.size() ? ",\n" : "\n");
+    text += "  " + json_text(node_json(of, id)) + (id + 1 < tree.nodes.size() ? ",\n" : "\n");
   }
   return text + " ]\n}\n";
 }

@@ -304,7 +304,7 @@ TEST_F(SetValueTest, RefusesWhatIsNoAssignmentAndLeavesTheDocumentAlone) {
        {"", "=", "=1", "horizon_s", "horizon_s=", "horizon_s=nan", "horizon_s=-inf",
         "horizon_s=\"open", "horizon_s=[1", "horizon_s=1\nrounds=2", "fighter.5.style=a",
         "fighter.x.style=a", "fighter.-1.style=a", "fighter.99999999999.style=a", "name.first=a",
-        "fighter..style=a", ".name=a", "name.=a"}) {
+        "name=\xff", "fighter..style=a", ".name=a", "name.=a"}) {
     const auto set = set_value(document_, assignment);
     ASSERT_FALSE(set) << assignment;
     EXPECT_EQ(set.error().kind, ErrorKind::usage);

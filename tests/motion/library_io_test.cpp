@@ -239,6 +239,8 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_THAT(refused([](auto& a) { a[0].clip.frames[3].hips.y = std::nanf(""); }),
               HasSubstr("not finite"));
   EXPECT_THAT(refused([](auto& a) { a[0].name = "step"; }), HasSubstr("two actions"));
+  EXPECT_THAT(refused([](auto& a) { a[0].name = "step\xff"; }), HasSubstr("section"));
+  EXPECT_THAT(refused([](auto& a) { a[0].source = "Box\xe9.bvh"; }), HasSubstr("section"));
 }
 
 TEST(LibraryIo, NoBytesMakeItCrash) {
