@@ -79,7 +79,8 @@ nlohmann::json numbers_of(const HitQuery& query, const HitAnswer& answer) {
                             {"steps", outcome.steps},
                             {"direction_rad", outcome.direction},
                             {"knockout", outcome.knockout},
-                            {"head_spin_rad_s", outcome.head_spin},
+                            {"head_spin_radps", outcome.head_spin},
+                            {"head_spin_rad_s", outcome.head_spin},  // its name of before
                             {"margin_m", outcome.margin},
                             {"com_velocity_mps", vector_of(outcome.com_velocity)},
                             {"impulse_Ns", glm::length(blow.impulse)},
