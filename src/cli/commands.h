@@ -42,7 +42,7 @@ struct HitOptions {
   std::string pose = "idle_guard_bounce@0.1";
   std::string part = "head";
   std::string impulse = "0,0,-26";
-  float tone = 1;
+  std::optional<float> tone;            // none: 1
   std::string strike;                   // an action instead of the impulse
   std::string attacker;                 // its body; empty: as `body`
   std::optional<float> distance;        // m between the two

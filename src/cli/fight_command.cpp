@@ -55,6 +55,13 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
               const CommonOptions& options) {
   const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
+  const auto wants = [&](std::string_view format) {
+    return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
+  };
+  if (!fight.profile.empty() && !wants("bvh")) {
+    return fail({ErrorKind::usage, "", "--export-profile",
+                 "no BVH is asked for that it would be of", "add bvh to --export"});
+  }
   if (const auto page = page_template(); !page) return fail(page.error());
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("out") / scene->name
@@ -64,9 +71,6 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
-  const auto wants = [&](std::string_view format) {
-    return std::find(fight.exports.begin(), fight.exports.end(), format) != fight.exports.end();
-  };
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
   if (const auto may = may_write_fight(folder, *scene, extras); !may) return fail(may.error());

@@ -127,7 +127,12 @@ Result<HitQuery> query_from(const HitOptions& hit) {
   const auto pose = pose_from(hit.pose);
   if (!pose) return tl::unexpected(pose.error());
   std::tie(query.action, query.at_s) = *pose;
-  query.tone = hit.tone;
+  for (const std::string& sweep : hit.sweep) {
+    if (hit.tone && sweep.starts_with("tone=")) {
+      return usage_error("", "--tone", "--sweep goes over the tone, too", "give one of the two");
+    }
+  }
+  query.tone = hit.tone.value_or(1.0f);
   const auto body = body_named(hit.body);
   if (!body) return tl::unexpected(body.error());
   query.body = *body;

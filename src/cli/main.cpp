@@ -19,6 +19,19 @@ namespace ringcraft {
 
 namespace {
 
+void add_talk(CLI::App& command, CommonOptions& options) {
+  command.add_flag("-q,--quiet", options.quiet, "No progress");
+  command.add_flag("-v,--verbose", options.verbose, "Say more");
+}
+
+// Of a command that writes no file.
+void add_for_stdout(CLI::App& command, CommonOptions& options) {
+  command.add_option("--threads", options.threads, "Threads; never changes the result")
+      ->check(CLI::Range(1, 256));
+  command.add_flag("--json", options.json, "Print the result as JSON on stdout");
+  add_talk(command, options);
+}
+
 void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
   if (overrides != Overrides::none) {
@@ -31,11 +44,7 @@ void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) 
         ->type_name("KEY=VALUE")
         ->take_all();
   }
-  command.add_option("--threads", options.threads, "Threads; never changes the result")
-      ->check(CLI::Range(1, 256));
-  command.add_flag("--json", options.json, "Print the result as JSON on stdout");
-  command.add_flag("-q,--quiet", options.quiet, "No progress");
-  command.add_flag("-v,--verbose", options.verbose, "Say more");
+  add_for_stdout(command, options);
 }
 
 int run_completion(const std::string& shell) {
@@ -154,7 +163,7 @@ int run(int argc, char** argv) {
   CLI::App* replay = app.add_subcommand(
       "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");
   replay->add_option("EVENTS", events_file, "An events.jsonl")->required();
-  add_common(*replay, options, Overrides::none);
+  add_for_stdout(*replay, options);
   replay->callback([&] { code = run_replay(events_file, options); });
 
   std::string library_name = "kickboxing";
@@ -195,12 +204,13 @@ int run(int argc, char** argv) {
   inspect->add_option("LIBRARY", library_name,
                       "Library file, manifest, folder, or the name of one in assets");
   add_common(*inspect, options, Overrides::none);
+  inspect->get_option("--json")->excludes(inspect->get_option("--out"));  // writes no page
   inspect->callback([&] { code = run_library_inspect(library_name, options); });
   CheckHeights check_heights;
   CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
   check->add_option("LIBRARY", library_name,
                     "Library file, manifest, folder, or the name of one in assets");
-  add_common(*check, options, Overrides::none);
+  add_for_stdout(*check, options);
   check->add_option("--height", check_heights.own, "Height of the fighter, m")
       ->check(within(1.2, 2.3));
   check->add_option("--opponent", check_heights.opponent, "Height of the opponent, m")
@@ -232,7 +242,7 @@ int run(int argc, char** argv) {
   serve->add_option("--port", serve_options.port, "Port of 127.0.0.1; 0 takes any that is free")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
-  add_common(*serve, options, Overrides::none);
+  add_talk(*serve, options);
   serve->callback([&] { code = run_serve(serve_options, options); });
 
   ViewOptions view_options;
