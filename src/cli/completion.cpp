@@ -44,7 +44,7 @@ constexpr std::array<Named, 17> kNamed = {{
     {"--captures", "", nullptr, "", files},
     {"DIR", "", nullptr, "", folders},
     {"--out", "", nullptr, "", folders},
-    {"FIGHT", "scene", "scenes", ".toml", files},
+    {"FOLDER|PAGE|SCENE", "scene", "scenes", ".toml", files},
 }};
 
 const Named* named_by(const CLI::Option& option) {

@@ -35,7 +35,10 @@ void add_for_stdout(CLI::App& command, CommonOptions& options) {
 void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) {
   command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
   if (overrides != Overrides::none) {
-    command.add_option("--seed", options.seed, "Seed, instead of the scene's")
+    command
+        .add_option("--seed", options.seed,
+                    overrides == Overrides::seed ? "Seed of what is drawn at random"
+                                                 : "Seed, instead of the scene's")
         ->type_name("N")
         ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
   }
@@ -248,7 +251,7 @@ int run(int argc, char** argv) {
   ViewOptions view_options;
   CLI::App* view =
       app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
-  view->add_option("FIGHT", view_options.what, "Folder of a result, page, or scene");
+  view->add_option("FOLDER|PAGE|SCENE", view_options.what, "Folder of a result, page, or scene");
   view->add_flag("--print", view_options.print, "Print the address, open nothing");
   add_common(*view, options, Overrides::seed_and_values);
   view->callback([&] { code = run_view(view_options, options); });

@@ -343,8 +343,10 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
   for (const StudyEntry& entry : kStudies) {
     CLI::App* one = command->add_subcommand(entry.name, entry.says);
     if (entry.most > 0) {
-      one->add_option(entry.most == 1 ? "SCENE" : "WHAT", study->what, entry.takes)
-          ->type_name(entry.takes)
+      one->add_option(entry.most == 1 ? "SCENE" : "WHAT", study->what,
+                      entry.most == 1 ? "Scene file, or the name of one in assets/scenes"
+                                      : "Two motions: actions or captures")
+          ->type_name(entry.most == 1 ? "TEXT" : entry.takes)
           ->expected(static_cast<int>(entry.least), static_cast<int>(entry.most))
           ->required(entry.least > 0);
     }
