@@ -19,6 +19,7 @@
 #include "capture/retarget.h"
 #include "capture/segment.h"
 #include "capture/sheet.h"
+#include "motion/library_io.h"
 #include "motion/strike_fit.h"
 
 namespace ringcraft {
@@ -119,6 +120,12 @@ struct CaptureEntry {
   std::string source;  // the file and its clip, for the actions' source
 };
 
+// Whether it begins and ends within its action and protects in between, as a sheet's has to.
+bool is_inside(const Defense& defense, const ActionCut& cut) {
+  return ticks(cut.begin) <= defense.begin && defense.begin < defense.end &&
+         defense.end <= ticks(cut.end);
+}
+
 // The listed actions, then those found where none is listed.
 Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentation& found,
                       Collector& out) {
@@ -148,6 +155,14 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
         listed[i].strikes.empty())
       return input_error(file, place, fmt::format("{} strikes nothing", listed[i].name),
                          "give it a [[capture.action.strike]], or another kind");
+    if (listed[i].defense && !is_inside(*listed[i].defense, listed[i])) {
+      const std::string defense = fmt::format("{}/action/{}/defense", of.pointer, i);
+      return input_error(
+          file, fmt::format("{}, {}", of.manifest.place(defense), defense),
+          fmt::format("the seconds over which {} protects are empty, or outside of its {} to {} s",
+                      listed[i].name, listed[i].begin, listed[i].end),
+          "count them from the capture's first frame, with begin < end");
+    }
     auto action = cut_out(listed[i], place);
     if (!action) return tl::unexpected(action.error());
     if (auto ok = out.add(std::move(*action), file, place); !ok) return ok;
@@ -295,7 +310,25 @@ std::string wrong_lead(const MotionLibrary& library, ActionId from) {
   return "";
 }
 
-Result<MotionLibrary> checked(const std::filesystem::path& source, MotionLibrary library) {
+// So many that the library can be read back.
+Result<void> few_enough(const std::filesystem::path& source, const std::vector<Action>& actions,
+                        std::string remedy) {
+  if (actions.size() <= kMostActions) return {};
+  return input_error(
+      source.string(), "",
+      fmt::format("{} actions, more than the {} of a library", actions.size(), kMostActions),
+      std::move(remedy));
+}
+
+// The library of `actions`; what cannot be a library is refused before the work where it shows.
+Result<MotionLibrary> connected(const std::filesystem::path& source, const std::string& name,
+                                std::vector<Action> actions, std::vector<std::string> notes,
+                                const LibraryBuildSettings& settings) {
+  if (auto ok = few_enough(source, actions, "take out captures or sheets"); !ok)
+    return tl::unexpected(ok.error());
+  MotionLibrary library = connected_library(name, std::move(actions), std::move(notes), settings);
+  if (auto ok = few_enough(source, library.actions(), "build it with --not-connected"); !ok)
+    return tl::unexpected(ok.error());
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
     const std::string wrong = wrong_lead(library, ActionId(i));
     if (wrong.empty()) continue;
@@ -336,7 +369,7 @@ Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
   }
   const std::string name =
       clean_name(std::filesystem::weakly_canonical(folder).filename().string());
-  return checked(folder, connected_library(name, std::move(*actions), std::move(notes), settings));
+  return connected(folder, name, std::move(*actions), std::move(notes), settings);
 }
 
 }  // namespace
@@ -362,8 +395,8 @@ Result<MotionLibrary> build_library(const std::filesystem::path& source,
   out.notes = &notes;
   if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
   if (settings.interpolate.value_or(false)) add_blends(out.actions, settings, notes);
-  return checked(source, connected_library(document->value["name"].get<std::string>(),
-                                           std::move(out.actions), std::move(notes), settings));
+  return connected(source, document->value["name"].get<std::string>(), std::move(out.actions),
+                   std::move(notes), settings);
 }
 
 }  // namespace ringcraft

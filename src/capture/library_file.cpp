@@ -67,7 +67,15 @@ Result<void> may_write_library(const fs::path& file) {
 
 Result<void> write_library(const MotionLibrary& library, const fs::path& file) {
   if (auto may = may_write_library(file); !may) return may;
-  return write_file(file, library_bytes(library));
+  const std::string bytes = library_bytes(library);
+  // Before a good file is replaced by one that nobody can read.
+  if (auto read = library_from_bytes(bytes, library.name()); !read) {
+    Error fault = std::move(read.error());
+    fault.what = "the library could not be read back, nothing is written: " + fault.what;
+    fault.remedy = "correct that action in its manifest or sheet";
+    return tl::unexpected(std::move(fault));
+  }
+  return write_file(file, bytes);
 }
 
 }  // namespace ringcraft

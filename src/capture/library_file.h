@@ -17,7 +17,8 @@ Result<MotionLibrary> load_library(const std::filesystem::path& library);
 // folder's library.toml where it has one, else the folder.
 std::filesystem::path library_source(const std::filesystem::path& named);
 
-// Whether write_library() may: a file that is no library is not overwritten.
+// Whether write_library() may: a file that is no library is not overwritten, and none is written
+// that could not be read back.
 Result<void> may_write_library(const std::filesystem::path& file);
 Result<void> write_library(const MotionLibrary& library, const std::filesystem::path& file);
 

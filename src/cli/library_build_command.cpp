@@ -84,7 +84,6 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
                                          ? std::filesystem::path(library->name() + ".ringlib")
                                          : std::filesystem::path(options.out);
   if (const auto written = write_library(*library, file); !written) return fail(written.error());
-  if (const auto read = load_library(file); !read) return fail(read.error());
   const nlohmann::json summary = summary_of(*library);
   if (options.verbose > 0) {
     for (const std::string& note : library->notes()) fmt::print(stderr, "{}\n", note);

@@ -20,8 +20,7 @@ constexpr std::string_view kMagic("ringlib\n", 8);
 constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 8 + 8;
 constexpr std::array<std::string_view, 7> kSections = {"skeleton", "actions", "clips", "edges",
                                                        "paths",    "graph",   "notes"};
-constexpr std::size_t kMostActions = 2048;  // paths are a table of all pairs
-constexpr std::size_t kLongestPath = 64;    // actions
+constexpr std::size_t kLongestPath = 64;  // actions
 constexpr std::size_t kSectionEntryBytes = 8 + 8 + 8;
 constexpr const char* kRemedy = "build it again with `ringcraft library build`";
 

@@ -15,6 +15,7 @@
 namespace ringcraft {
 
 inline constexpr std::uint32_t kLibraryVersion = 2;
+inline constexpr std::size_t kMostActions = 2048;  // of a file: paths are a table of all pairs
 
 std::string library_bytes(const MotionLibrary& library);
 

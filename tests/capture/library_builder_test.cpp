@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "capture/bvh.h"
@@ -122,6 +124,41 @@ TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
     EXPECT_THAT(actions.error().what, HasSubstr(what));
     EXPECT_THAT(actions.error().place, HasSubstr("line"));
   }
+}
+
+TEST_F(Manifest, ADefenseThatDoesNotLieWithinItsActionIsAnErrorAtItsLine) {
+  if (!std::filesystem::exists(kBoxing)) GTEST_SKIP() << "no captures";
+  const auto collected = [&](const std::string& window) {
+    return collect(
+        boxing("name = \"a\"\nkind = \"defense\"\nbegin = 3.12\nend = 3.8\n"
+               "defense = { kind = \"slip\", " +
+               window + " }\n"));
+  };
+  const auto sound = collected("begin = 3.12, end = 3.8");
+  EXPECT_TRUE(sound) << to_string(sound.error());
+  for (const char* window : {"begin = 70, end = 1", "begin = 70, end = 80", "begin = 3, end = 3.5",
+                             "begin = 3.3, end = 3.9", "begin = 3.4, end = 3.4"}) {
+    const auto actions = collected(window);
+    ASSERT_FALSE(actions) << window;
+    EXPECT_THAT(actions.error().what, HasSubstr("over which a protects")) << window;
+    EXPECT_EQ(actions.error().place, "line 11, /capture/0/action/0/defense") << window;
+  }
+}
+
+TEST_F(Manifest, MoreActionsThanALibraryHoldsAreRefusedBeforeTheWork) {
+  std::filesystem::copy(assets_folder() / "kickboxing" / "sheets" / "guard.toml", folder_.path());
+  for (int i = 0; i < 11; ++i) {
+    std::ofstream sheet(folder_.path() / fmt::format("many_{}.toml", i));
+    sheet << "poses = \"guard.toml\"\n";
+    for (int j = 0; j < 190; ++j) {
+      sheet << fmt::format("[[action]]\nname = \"a_{}_{}\"\nkind = \"idle\"\nlength = 0.1\n", i, j);
+    }
+  }
+  std::ofstream(folder_.path() / "library.toml") << "name = \"test\"\nsheets = [\"many_*.toml\"]\n";
+  const auto built = build_library(folder_.path() / "library.toml");
+  ASSERT_FALSE(built);
+  EXPECT_THAT(to_string(built.error()),
+              HasSubstr("library.toml: 2090 actions, more than the 2048 of a library"));
 }
 
 TEST_F(Manifest, AGuardBehindTheCapturesEndIsAnError) {

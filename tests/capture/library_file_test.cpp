@@ -42,6 +42,22 @@ TEST_F(LibraryFile, IsLoadedWhereverALibraryIsNamed) {
   EXPECT_THAT(loaded->notes(), ElementsAre("a note"));
 }
 
+TEST_F(LibraryFile, IsNotReplacedByOneThatCouldNotBeRead) {
+  const auto library_with = [&](Defense defense) {
+    Action idle = action_of("idle", Kind::idle, test::idle_clip(skeleton_));
+    idle.defense = defense;
+    return connected_library("one", {std::move(idle)}, {}, {});
+  };
+  const std::filesystem::path file = folder_.path() / "one.ringlib";
+  ASSERT_TRUE(write_library(library_with({DefenseKind::slip, 2, 4}), file));
+  const auto before = read_file(file);
+  ASSERT_TRUE(before);
+  const auto written = write_library(library_with({DefenseKind::slip, 4, 2}), file);
+  ASSERT_FALSE(written);
+  EXPECT_THAT(to_string(written.error()), HasSubstr("action idle: a defense outside of it"));
+  EXPECT_EQ(read_file(file).value_or(""), *before);
+}
+
 TEST_F(LibraryFile, IsKnownByItsFirstBytesNotByItsName) {
   std::ofstream(folder_.path() / "text.ringlib") << "name = \"kickboxing\"\n";
   const auto text = load_library(folder_.path() / "text.ringlib");
