@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.h"
 #include "capture/words.h"
 #include "motion/skeleton.h"
 
@@ -96,6 +97,24 @@ void find_bones(const Json& extensions, GltfParts& out) {
   }
 }
 
+// Buffers may all name one file, or the binary chunk: a small file could ask for much. What one of
+// them holds is not other than it says, or it is refused when it is read.
+Result<void> few_bytes(const Json& json, const std::string& file) {
+  const Json* buffers = member(json, "buffers");
+  if (buffers == nullptr || !buffers->is_array()) return {};
+  double total = 0;
+  for (std::size_t i = 0; i < buffers->size(); ++i) {
+    const Json* bytes = member((*buffers)[i], "byteLength");
+    if (bytes != nullptr && bytes->is_number()) total += std::max(0.0, bytes->get<double>());
+    if (total > static_cast<double>(kLargestInput))
+      return input_error(
+          file, fmt::format("/buffers/{}", i),
+          fmt::format("up to it the buffers have {:.0f} bytes, more than 256 MiB", total),
+          "cut the file into shorter ones");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file) {
@@ -131,6 +150,7 @@ Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file) {
   if (!json) return tl::unexpected(json.error());
   GltfParts parts;
   parts.binary = chunks->binary;
+  if (auto ok = few_bytes(*json, file); !ok) return tl::unexpected(ok.error());
   if (const Json* required = member(*json, "extensionsRequired"); required != nullptr)
     for (const Json& name : *required)
       if (name.is_string() &&

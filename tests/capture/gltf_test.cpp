@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/file.h"
 #include "base/temporary_folder.h"
 #include "capture/profile.h"
 #include "small_files.h"
@@ -212,6 +213,21 @@ TEST(Gltf, BuffersOutsideOfTheFolderAreNotRead) {
   EXPECT_FALSE(write("%2e%2e/outside.bin"));
   EXPECT_FALSE(write((folder / "outside.bin").string()));
   EXPECT_FALSE(write("missing.bin"));
+}
+
+TEST(Gltf, BuffersTogetherAreBounded) {
+  const TemporaryFolder scratch;
+  std::ofstream(scratch.path() / "zeros.bin").close();
+  std::filesystem::resize_file(scratch.path() / "zeros.bin", kLargestInput / 4);  // sparse
+  GltfDraft draft = small_gltf();
+  for (int i = 0; i < 5; ++i) {
+    draft.json["buffers"].push_back({{"byteLength", kLargestInput / 4}, {"uri", "zeros.bin"}});
+  }
+  std::ofstream(scratch.path() / "toy.gltf", std::ios::binary) << draft.json.dump();
+  const auto read = read_gltf(scratch.path() / "toy.gltf");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().place, "/buffers/4");
+  EXPECT_THAT(read.error().what, HasSubstr("more than 256 MiB"));
 }
 
 }  // namespace
