@@ -193,8 +193,9 @@ Result<json> set_text(const std::string& text, const std::string& assignment) {
     const auto document = parse("value = " + text + "\n", "--set");
     if (document && document->value.size() == 1) return document->value["value"];
     const bool bare = !text.empty() && std::string("\"'[{").find(text[0]) == std::string::npos;
-    const bool not_finite = text.ends_with("inf") || text.ends_with("nan");
-    if (bare && !not_finite) return json(text);
+    const bool has_sign = text.starts_with('+') || text.starts_with('-');
+    const std::string word = text.substr(has_sign ? 1 : 0);
+    if (bare && word != "inf" && word != "nan") return json(text);
   }
   return usage_error(
       "--set " + assignment, "", "the value is not valid",

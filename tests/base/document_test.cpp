@@ -284,6 +284,14 @@ TEST_F(SetValueTest, ReadsValuesAsTomlAndBareWordsAsText) {
   EXPECT_TRUE(checked(document_, "sample"));
 }
 
+TEST_F(SetValueTest, AWordThatEndsLikeANumberThatIsNotFiniteIsAWord) {
+  for (const std::string name : {"Ronan", "Finan", "spinf"}) {
+    const auto set = set_value(document_, "name=" + name);
+    EXPECT_TRUE(set) << to_string(set.error());
+    EXPECT_EQ(document_.value["name"], name);
+  }
+}
+
 TEST_F(SetValueTest, AppendsTheNextEntryOfAList) {
   ASSERT_TRUE(set_value(document_, "fighter.2.style=c"));
   EXPECT_EQ(document_.value["fighter"].size(), 3u);
