@@ -45,8 +45,12 @@ std::string clean_name(std::string_view name, std::size_t most) {
   for (std::size_t i = 0; i < name.size();) {
     const std::size_t length = utf8 ? utf8_length(name.substr(i)) : 1;
     const auto byte = static_cast<unsigned char>(name[i]);
+    // U+0080 to U+009F are control characters as well.
+    const unsigned code =
+        length == 2 ? (byte & 0x1Fu) << 6 | (static_cast<unsigned char>(name[i + 1]) & 0x3Fu)
+                    : byte;
     std::string character;
-    if (byte < 0x20 || byte == 0x7f)
+    if (code < 0x20 || (code >= 0x7F && code < 0xA0))
       character = "?";
     else if (byte < 0x80 || utf8)
       character = name.substr(i, length);
