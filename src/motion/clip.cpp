@@ -17,8 +17,13 @@ const T& clamped(const std::vector<T>& values, Tick tick) {
   return values[static_cast<std::size_t>(std::clamp<Tick>(tick, 0, last))];
 }
 
+constexpr float kFarthest = 1000;  // m from a clip's start: no fight goes there
+
 bool finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool near_enough(Vec3 v) {
+  return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
 }
 bool finite(Quat q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
@@ -52,8 +57,14 @@ std::vector<std::string> faults(const Clip& clip) {
     const Placement& root = clip.root[i];
     if (!finite(Vec3(root.x, root.yaw, root.z))) {
       found.push_back(fmt::format("rule 4: frame {}: root not finite", i));
+    } else if (!near_enough(root.position())) {
+      found.push_back(fmt::format("rule 4: frame {}: root farther than {} m", i, kFarthest));
     }
-    if (!finite(pose.hips)) found.push_back(fmt::format("rule 4: frame {}: hips not finite", i));
+    if (!finite(pose.hips)) {
+      found.push_back(fmt::format("rule 4: frame {}: hips not finite", i));
+    } else if (!near_enough(pose.hips)) {
+      found.push_back(fmt::format("rule 4: frame {}: hips farther than {} m", i, kFarthest));
+    }
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const Quat q = pose.rotation[j];
       if (!finite(q)) {

@@ -42,6 +42,12 @@ TEST(Clip, EveryBrokenRuleIsFoundByItsNumber) {
   clip.frames[7].hips.y = nan;
   EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7")));
   clip = good;
+  clip.root[7].x = 3e38f;
+  EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7: root farther than 1000 m")));
+  clip = good;
+  clip.frames[7].hips.y = 1e30f;
+  EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7: hips farther than 1000 m")));
+  clip = good;
   clip.frames.back().rotation[index(Joint::head)] *= 1.1f;
   EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 5")));
   clip = good;
