@@ -155,6 +155,12 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
         listed[i].strikes.empty())
       return input_error(file, place, fmt::format("{} strikes nothing", listed[i].name),
                          "give it a [[capture.action.strike]], or another kind");
+    const ActionCut& cut = listed[i];
+    if (const auto wrong = misplaced(cut.kind, cut.response, cut.starts_lying, cut.ends_lying)) {
+      const std::string key = fmt::format("{}/action/{}/{}", of.pointer, i, wrong->key);
+      return input_error(file, of.manifest.place(key), cut.name + ": " + wrong->what,
+                         wrong->remedy);
+    }
     if (listed[i].defense && !is_inside(*listed[i].defense, listed[i])) {
       const std::string defense = fmt::format("{}/action/{}/defense", of.pointer, i);
       return input_error(

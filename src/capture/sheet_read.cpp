@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capture/cut.h"
 #include "capture/sheet_keys.h"
 #include "capture/sheet_track.h"
 
@@ -141,6 +142,11 @@ class Reader {
                    "the ticks over which it protects are empty, or outside the action",
                    "window = [from, to] with from < to <= length");
     }
+    const Action& action = result.action;
+    if (const auto wrong =
+            misplaced(action.kind, action.response, action.starts_lying, action.ends_lying)) {
+      return fault(pointer + "/" + wrong->key, action.name + ": " + wrong->what, wrong->remedy);
+    }
     if (auto keys = read_keys(table, pointer, result); !keys) return tl::unexpected(keys.error());
     if (auto steps = read_steps(table, pointer, result); !steps)
       return tl::unexpected(steps.error());
@@ -261,6 +267,10 @@ class Reader {
         const Vec2 reach = pair_of(strike["reach"]) * kCanonicalHeight;
         read.strike.nearest = reach.x;
         read.strike.farthest = reach.y;
+        if (reach.x > reach.y) {
+          return fault(at + "/reach", "the nearest distance is more than the farthest",
+                       "reach = [near, far] with near <= far");
+        }
       }
       read.start = number(strike["start"]);
       read.contact = number(strike["contact"]);

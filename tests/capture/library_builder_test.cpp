@@ -112,6 +112,14 @@ TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
        "\"leftHand\", zone = \"head\", at = 7.0 }]\n",
        "not inside"},
       {"name = \"a\"\nkind = \"attack\"\nbegin = 3\nend = 4\n", "strikes nothing"},
+      {"name = \"a\"\nkind = \"attack\"\nbegin = 3\nend = 4\nstrike = [{ kind = \"straight\", "
+       "joint = \"leftHand\", zone = \"head\", at = 3.4 }]\nresponse = { kind = \"absorb\" }\n",
+       "only an action of kind 'response'"},
+      {"name = \"a\"\nkind = \"idle\"\nbegin = 3\nend = 4\nstarts_lying = \"seat\"\n",
+       "only a get-up starts lying"},
+      {"name = \"a\"\nkind = \"response\"\nbegin = 3\nend = 4\nresponse = { kind = \"absorb\", "
+       "steps = 3 }\n",
+       "steps do not fit"},
       {"name = \"a\"\nkind = \"combination\"\nbegin = 3\nend = 4\nstrike = []\n",
        "strikes nothing"},
       {"name = \"a\"\nkind = \"idle\"\nbegin = 3\nend = 4\n[[capture.action]]\nname = \"a\"\nkind "

@@ -72,6 +72,18 @@ TEST(Sheet, MistakesOfThePersonWhoWritesAreErrorsWithAPlace) {
               "0.1, contact = 0.3 }]\n",
        "stands on the ground"},
       {head + "defense = { kind = \"duck\", window = [0.2, 0.7] }\n", "protects"},
+      {head + "strike = [{ kind = \"straight\", joint = \"leftHand\", zone = \"head\", start = "
+              "0.1, contact = 0.3, reach = [1.5, 0.1] }]\n",
+       "more than the farthest"},
+      {head + "response = { kind = \"absorb\" }\n", "only an action of kind 'response'"},
+      {head + "starts_lying = \"back\"\n", "only a get-up"},
+      {head + "ends_lying = \"back\"\n", "only a response"},
+      {"name = \"a\"\nkind = \"response\"\nlength = 0.5\n"
+       "response = { kind = \"absorb\", steps = 3 }\n",
+       "steps do not fit"},
+      {"name = \"a\"\nkind = \"response\"\nlength = 0.5\n"
+       "response = { kind = \"recovery_steps\" }\n",
+       "steps do not fit"},
       {head + "length = 0.4\n", ""},
       {"name = \"a\"\nkind = \"transition\"\nlength = 1e9\n", ""},
   };
