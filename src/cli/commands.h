@@ -61,8 +61,8 @@ struct SparringOptions {
 };
 
 struct LibraryBuildOptions {
-  std::string source;  // manifest or folder of captures
-  std::string responses_from = "kickboxing";
+  std::string source;                         // manifest or folder of captures
+  std::optional<std::string> responses_from;  // none given: kickboxing for a folder
   bool not_mirrored = false, not_connected = false;
   bool interpolate = false, not_interpolated = false;  // neither: a folder is, a manifest is not
 };

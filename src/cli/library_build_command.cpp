@@ -63,8 +63,19 @@ nlohmann::json summary_of(const MotionLibrary& library) {
 }  // namespace
 
 int run_library_build(const LibraryBuildOptions& build, const CommonOptions& options) {
+  const std::filesystem::path source = library_source(build.source);
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(source, ignored) &&
+      (build.responses_from || build.not_mirrored)) {
+    const auto refused =
+        usage_error(source.string(), build.responses_from ? "--responses-from" : "--not-mirrored",
+                    "of no effect on a manifest, whose actions are those it names",
+                    "leave it out, or name a folder of captures without library.toml");
+    return fail(refused.value());
+  }
   LibraryBuildSettings settings;
-  settings.responses_from = build.responses_from == "none" ? "" : build.responses_from;
+  if (build.responses_from)
+    settings.responses_from = *build.responses_from == "none" ? "" : *build.responses_from;
   settings.mirrored = !build.not_mirrored;
   settings.connect = !build.not_connected;
   if (build.interpolate || build.not_interpolated) settings.interpolate = build.interpolate;
@@ -76,7 +87,7 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   const auto begin = std::chrono::steady_clock::now();
   const auto library = [&] {
     const EndAtSignal nothing_to_keep;
-    return build_library(library_source(build.source), settings);
+    return build_library(source, settings);
   }();
   if (!library) return fail(library.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;

@@ -139,7 +139,8 @@ int run(int argc, char** argv) {
       ->add_option("--captures", sparring_options.captures,
                    "Two people of one capture space, instead of a library")
       ->type_name("A B")
-      ->expected(2);
+      ->expected(2)
+      ->excludes("LIBRARY");
   add_common(*sparring, options, Overrides::none);
   sparring->callback([&] { code = run_sparring(sparring_options, options); });
 
