@@ -80,8 +80,9 @@ int main(int count, char** arguments) {
   const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
   const auto style = read_style(assets_folder() / "styles" / "balanced.toml");
   if (!library || !style) {
-    fmt::print(stderr, "{}\n", to_string(!library ? library.error() : style.error()));
-    return 3;
+    const Error& error = !library ? library.error() : style.error();
+    fmt::print(stderr, "{}\n", to_string(error));
+    return static_cast<int>(error.kind);
   }
   const Contender fighter{make_body({}), *style};
   PlanSettings settings;

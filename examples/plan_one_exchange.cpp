@@ -3,7 +3,9 @@
 //   plan_one_exchange [horizon in seconds]
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "base/file.h"
@@ -14,16 +16,18 @@ using namespace ringcraft;
 
 namespace {
 
-// Red has just come to rest; blue has begun a front kick or, where the library has none, its first
-// attack.
-FightState exchange(const MotionLibrary& library, float distance) {
-  ActionId rest = library.launchable().front(), attack = rest;
+// Red has just come to rest; blue is two thirds of the way to the blow of the library's longest
+// attack. Nothing where the library has no idle or no attack.
+std::optional<FightState> exchange(const MotionLibrary& library, float distance) {
+  ActionId rest, attack;
   for (const ActionId id : library.launchable()) {
-    if (library.action(id).kind == Kind::idle) rest = id;
-    if (library.action(id).kind == Kind::attack &&
-        library.action(id).length() > library.action(attack).length())
+    const Action& action = library.action(id);
+    if (action.kind == Kind::idle) rest = id;
+    if (action.kind == Kind::attack && !action.strikes.empty() &&
+        (!attack.valid() || action.length() > library.action(attack).length()))
       attack = id;
   }
+  if (!rest.valid() || !attack.valid()) return std::nullopt;
   FightState state;
   for (int i = 0; i < 2; ++i) {
     const ActionId action = i == 0 ? rest : attack;
@@ -31,7 +35,7 @@ FightState exchange(const MotionLibrary& library, float distance) {
     fighter.launch.action = action;
     const Action& what = library.action(action);
     fighter.launch.start = i == 0 ? -what.length() : -what.strikes.front().active_begin * 2 / 3;
-    fighter.launch.end = fighter.launch.start + library.action(action).length();
+    fighter.launch.end = fighter.launch.start + what.length();
     fighter.launch.placement = {0, i == 0 ? -distance / 2 : distance / 2, i == 0 ? 0 : kPi};
     fighter.opponent = FighterId(1 - i);
     state.fighters.push_back(fighter);
@@ -45,14 +49,20 @@ int main(int count, char** arguments) {
   const auto library = build_library(assets_folder() / "kickboxing" / "library.toml");
   const auto style = read_style(assets_folder() / "styles" / "balanced.toml");
   if (!library || !style) {
-    fmt::print(stderr, "{}\n", to_string(!library ? library.error() : style.error()));
-    return 3;
+    const Error& error = !library ? library.error() : style.error();
+    fmt::print(stderr, "{}\n", to_string(error));
+    return static_cast<int>(error.kind);
   }
   Contender red{make_body({}), *style};
   if (count > 1) red.style.horizon_s = std::clamp(std::atof(arguments[1]), 0.1, 3.0);
   Planner planner(*library, {red, red}, {}, 1);
 
-  const FightState state = exchange(*library, 1.1f);
+  const std::optional<FightState> begun = exchange(*library, 1.1f);
+  if (!begun) {
+    fmt::print(stderr, "the library has no idle or no attack\n");
+    return static_cast<int>(ErrorKind::input);
+  }
+  const FightState& state = *begun;
   fmt::print("blue is {} ticks into {}; red decides\n", state.now - state.fighters[1].launch.start,
              library->action(state.fighters[1].launch.action).name);
   const Plan plan = planner.plan(state, FighterId(0), 0);
