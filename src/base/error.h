@@ -7,7 +7,7 @@
 
 namespace ringcraft {
 
-// The command's exit codes (design section 8).
+// The command's exit codes (README).
 enum class ErrorKind { usage = 2, input = 3, simulation = 4 };
 
 struct Error {

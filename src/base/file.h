@@ -13,6 +13,8 @@ namespace ringcraft {
 // Largest file that is read (256 MiB): an input cannot exhaust the program.
 inline constexpr std::uintmax_t kLargestInput = 256u << 20;
 
+// All bytes of a regular file. An error, of kind input: none there, a folder, not readable, larger
+// than kLargestInput.
 Result<std::string> read_file(const std::filesystem::path& path);
 
 // Writes beside the target, then renames: the file appears whole or not at all.

@@ -20,6 +20,8 @@ std::filesystem::path library_source(const std::filesystem::path& named);
 // Whether write_library() may: a file that is no library is not overwritten, and none is written
 // that could not be read back.
 Result<void> may_write_library(const std::filesystem::path& file);
+// Writes the whole file or none. An error where may_write_library() has one or the place cannot be
+// written.
 Result<void> write_library(const MotionLibrary& library, const std::filesystem::path& file);
 
 }  // namespace ringcraft

@@ -1,5 +1,5 @@
 #pragma once
-// report.json and timing.json of a fight (design section 8).
+// report.json and timing.json of a fight.
 
 #include <array>
 #include <cstdint>
@@ -40,7 +40,7 @@ struct ClockFacts {
   std::vector<double> decision_ms, impulse_step_us;
 };
 
-// Every field of design section 8, the same for the same fight. A fighter's recovery_steps,
+// Every field is the same for the same fight. A fighter's recovery_steps,
 // knockdowns and knockouts are those it suffered; hits_taken are clean ones. foreseen_agreement is
 // the share of the contacts that the tree foresaw from the actions in flight, with their kind of
 // response, asked last in the tick before; foreseen_at_launch_agreement when somebody last began

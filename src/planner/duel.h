@@ -1,5 +1,5 @@
 #pragma once
-// The duel as a game: temporal expansion (the paper's section on it, design section 5).
+// The duel as a game: temporal expansion (the paper's section on it; docs/planning.md).
 //
 // A node is a moment at which somebody acts; an edge is an action, and lasts until the next
 // decision or the first hit. Side 0 plans (maximizes), side 1 is its chief opponent. Other fighters

@@ -55,15 +55,17 @@ struct PlanLimits {
 };
 
 struct Plan {
-  Launch launch;               // of the chosen action
-  std::vector<ActionId> then;  // the rest of a path: to be launched in turn, without a new decision
-  DecisionRecord record;       // lines, nodes, what was pruned
+  Launch launch;                // of the chosen action
+  std::vector<ActionId> then;   // the rest of a path; may be launched in turn, or the fighter
+                                // decides anew, as fights do. ringcraft tree names lines by it
+  DecisionRecord record;        // lines, nodes, what was pruned
   std::vector<Event> foreseen;  // hits with their responses along the principal variation
   bool reproducible = true;  // false under PlanLimits: another run may look less or farther ahead
 };
 
 // What a fight's decisions share: tables of the library, and what it is told and learns from plan
 // to plan (use, habits, conditions, what is shown, impulse steps, searches). One plan at a time.
+// `library` is kept by reference and must outlive the planner.
 class Planner {
  public:
   // `store`, where there is one, is looked into before an impulse step is made, and added to; it
@@ -74,6 +76,9 @@ class Planner {
 
   // The decision of `fighter`, who acts now, against its opponent; the others are obstacles. An
   // opponent's feint that cannot be told from its attack yet is taken for the attack.
+  // `last_contact` is the tick of the fight's last contact (0 where there was none): boredom counts
+  // from it. Where nobody is to be fought, the launch is of the first action that may follow, or
+  // the last one held for 0.5 s more where none may, and the record is empty.
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
 
   // The same in a game's loop: looks ahead as far as the limits allow, in steps, and keeps the last

@@ -46,6 +46,8 @@ struct Style {
       liked;  // action name -> bonus in points per launch (may be negative)
 };
 
+// A TOML file held to the schema `style`: an unknown key or a value out of range is an error that
+// names its line. What the file leaves out has the values above.
 Result<Style> read_style(const std::filesystem::path& path);
 
 }  // namespace ringcraft

@@ -14,7 +14,7 @@
 
 namespace ringcraft {
 
-// bouts.jsonl: a header line, then the report (design section 8) of each bout, in order of seeds.
+// bouts.jsonl: a header line, then the report (io/report.h) of each bout, in order of seeds.
 struct Batch {
   std::string scene;
   std::string setup;  // hash of program, scene and library: only equal ones are put together

@@ -43,6 +43,8 @@ struct FightRecord {
 // given.
 MotionLibrary library_for(const SceneFile& scene, MotionLibrary library);
 
+// `library` is what library_for() made of the scene's: without it feints and fitted clips are
+// missing, and a southpaw fails an assertion. The same inputs give the same record.
 FightRecord simulate_fight(const MotionLibrary& library, const SceneFile& scene,
                            const FightOptions& options = {});
 
