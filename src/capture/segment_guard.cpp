@@ -11,7 +11,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kQuietHand = 1.6f;       // m/s (calibration.md, section 1)
+constexpr float kQuietHand = 1.6f;       // m/s (docs/sources.md, C1)
 constexpr float kQuietHips = 0.9f;       // m/s over the ground
 constexpr float kUpright = radians(50);  // of the trunk
 constexpr float kHigh = 0.85f;           // share of the hips' usual height

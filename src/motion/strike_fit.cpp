@@ -26,7 +26,7 @@ constexpr int kSinkAround = 6;           // ticks
 constexpr float kSinkSigma = 0.03f;      // s
 
 // How the body helps the limb, per m of the limb's way; captured boxers who strike at the body sink
-// by a third to a half of what the fist sinks, and lean over (calibration.md section 3).
+// by a third to a half of what the fist sinks, and lean over (docs/sources.md, C3).
 constexpr float kSinks = 0.40f, kMostSink = 0.12f;         // m
 constexpr float kLeansDown = 0.60f, kLeansUp = 0.30f;      // rad per m
 constexpr float kRaises = 0.8f, kMostRaise = radians(12);  // rad per m, of a shoulder

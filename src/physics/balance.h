@@ -1,5 +1,5 @@
 #pragma once
-// Balance: the extrapolated centre of mass against the base of support (Hof 2005; validation V2).
+// Balance: the extrapolated centre of mass against the base of support (Hof 2005).
 
 #include <array>
 #include <span>

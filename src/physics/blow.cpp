@@ -12,8 +12,8 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kContactSeconds = 0.010f;  // of a blow, ragdoll.md section 4
-// Glove on body. As the published straights have it (validation V1): 3,427 N over a half-sine of 12
+constexpr float kContactSeconds = 0.010f;  // of a blow (docs/sources.md, R4)
+// Glove on body. As the published straights have it (Walilko 2005): 3,427 N over a half-sine of 12
 // ms are J = 26.2 N s; at 9.14 m/s, from 2.9 kg of hand on the 6.0 kg that 58 g of head at that
 // force mean, 1 + e = J (1 / 2.9 + 1 / 6.0) / 9.14 = 1.46.
 constexpr float kRestitution = 0.45f;
@@ -144,7 +144,7 @@ constexpr float kFallingTone = .3f;  // of a body that braces itself (shown.cpp)
 
 struct StrikeTraits {
   // Of the striking limb: the one at which the default library's blows have the mass that trained
-  // ones have, 2.5-3 kg for punches (ragdoll.md section 4), 4-6 kg for roundhouses. Over 1: a boxer
+  // ones have, 2.5-3 kg for punches (docs/sources.md, R4), 4-6 kg for roundhouses. Over 1: a boxer
   // braces a bent arm at the contact harder than he holds it, and the wrist is wrapped.
   float tone;
   float least, most;  // kg: a straight limb is nearly singular, its mass doubles within centimetres

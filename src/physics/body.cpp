@@ -6,7 +6,7 @@
 namespace ringcraft {
 namespace {
 
-// One row of de Leva 1996 (validation V3): share of the body's mass, centre of mass as a share of
+// One row of de Leva 1996: share of the body's mass, centre of mass as a share of
 // the segment's length from its first-named end, radii of gyration as shares of that length.
 struct Segment {
   float mass, center, sagittal, transverse, longitudinal;
@@ -53,7 +53,7 @@ constexpr Table kFemale = {{.0668f, .5894f, .330f, .359f, .318f},
                            .0780f / 1.735f,
                            .2283f / 1.735f};
 
-// The head's row covers head and neck; the neck's share of it (4.3 + 0.9 kg, ragdoll.md).
+// The head's row covers head and neck; the neck's share of it (4.3 + 0.9 kg; docs/sources.md, R4).
 constexpr float kNeckShare = .173f;
 
 struct PartTraits {

@@ -78,12 +78,14 @@ struct BodyModel {
   std::array<PartModel, kPartCount> parts;
 };
 
+// Any spec within the ranges that BodySpec states, which read_body() holds a file to; not checked
+// here.
 BodyModel make_body(const BodySpec& spec);
 
 BodyCapsules capsules(const BodyModel& body, const WorldPose& world);
 Vec3 center_of_mass(const BodyModel& body, const WorldPose& world);
 
-// Joints beyond their range (validation table V3), and by how much. Used by quality and by tests.
+// Joints beyond their range (docs/sources.md, V3), and by how much. Used by quality and by tests.
 struct LimitViolation {
   Joint joint;
   float excess = 0;  // rad beyond the range

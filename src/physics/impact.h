@@ -1,5 +1,5 @@
 #pragma once
-// The hit: strike -> impulse -> ragdoll impulse step in Bullet -> response. Design section 6.
+// The hit: strike -> impulse -> ragdoll impulse step in Bullet -> response.
 
 #include <array>
 #include <functional>
@@ -11,7 +11,7 @@ namespace ringcraft {
 
 // What a part of a posed body offers to blows, wherever and whichever way they go: the inverse of
 // the inertia that the articulated body has there (Khatib 1987, operational space), with the
-// muscles' tone over the contact time (ragdoll.md section 4).
+// muscles' tone over the contact time (docs/sources.md, R4).
 struct PartMobility {
   Vec3 about{};                      // m, in the space of the pose
   std::array<double, 36> inverse{};  // 6 x 6: forces along x, y, z, then moments; SI
@@ -74,12 +74,12 @@ inline constexpr Tick kImpulseStepTicks = 12;  // 100 ms
 
 // Change of the head's angular velocity that switches the muscles off at toughness 1, rad/s. With
 // it 20 of 1,134 blows that landed in 24 duels of a minute (default library, seeds 1-8, 21-28 and
-// 41-48) knocked out, lost health included: of order one in a hundred (validation V1). As a free
-// head that is 8,500 rad/s2 for 12 ms: the published straights of Olympic boxers, at full strength,
-// have 6,343 +- 1,789.
+// 41-48) knocked out, lost health included: of order one in a hundred (docs/sources.md, V1). As a
+// free head that is 8,500 rad/s2 for 12 ms: the published straights of Olympic boxers, at full
+// strength, have 6,343 +- 1,789.
 inline constexpr float kKnockoutSpin = 65.0f;
 
-// Whole-body tone under which nobody stands (ragdoll.md section 7, 12).
+// Whole-body tone under which nobody stands (docs/sources.md, R7).
 inline constexpr float kLeastStandingTone = 0.25f;
 
 struct ImpactOutcome {
@@ -117,10 +117,10 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
                            const KeptOwnMotion& kept = {});
 
 // The shown response: a second simulation, active, from the same start, aimed at `target` (world
-// poses, one a tick from the contact on). Returns `ticks` world poses, the first one tick after the
-// contact. A knockdown falls with bracing arms and comes to rest; where there are `lying` poses,
-// from which get-ups start, it settles toward the nearest, and up to 2 s more are returned while it
-// is far from all of them. A knockout falls limp.
+// poses, one a tick from the contact on; empty: track `input.continued`). Returns `ticks` world
+// poses, the first one tick after the contact. A knockdown falls with bracing arms and comes to
+// rest; where there are `lying` poses, from which get-ups start, it settles toward the nearest, and
+// up to 2 s more are returned while it is far from all of them. A knockout falls limp.
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks, std::span<const Pose> lying = {});

@@ -68,7 +68,7 @@ Footing footing_of(const BodyModel& body, const ImpactFrame& frame, const Ragdol
                    const FootingQuery& query);
 
 // Balance without outside force: the target poses' pelvis is shifted against the drift of the
-// extrapolated centre of mass, the legs reach for the same foot places (ragdoll.md section 2).
+// extrapolated centre of mass, the legs reach for the same foot places (docs/sources.md, R2).
 class Balance {
  public:
   Balance(const BodyModel& body, const ImpactFrame& frame);

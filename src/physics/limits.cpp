@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-// Joint ranges, measured from the T-pose (validation V3; where V3 is silent, the AMA Guides'
-// ranges).
+// Joint ranges, measured from the T-pose (docs/sources.md, V3; where that is silent, the AMA
+// Guides' ranges).
 namespace ringcraft {
 namespace {
 
@@ -151,7 +151,7 @@ Ranges knee_ranges() {
   return {.middle = kNoTurn, .axis = kUp, .x = {-10, 150}, .z = {-15, 15}, .twist = {-40, 40}};
 }
 
-// Dorsiflexion is about -x; 35 under the body's weight (ragdoll.md section 1).
+// Dorsiflexion is about -x; 35 under the body's weight (docs/sources.md, R1).
 Ranges ankle_ranges() {
   return {.middle = kNoTurn, .axis = kLeft, .y = {-35, 35}, .z = {-35, 35}, .twist = {-35, 60}};
 }

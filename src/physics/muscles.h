@@ -1,7 +1,7 @@
 #pragma once
-// Muscles: torque limits and stiffness of every joint (ragdoll.md section 1), scaled with the mass.
+// Muscles: torque limits and stiffness of every joint (docs/sources.md, R1), scaled with the mass.
 // Trunk and hips are a little stronger than there: with them 39 of the 40 impulses that a body just
-// holds are within a quarter of that file's table (`ringcraft study hits --only balance`).
+// holds are within a quarter of the table in R3 (`ringcraft study hits --only balance`).
 
 #include <array>
 

@@ -50,7 +50,7 @@ btMatrix3x3 basis(Quat turn, Vec3 x, Vec3 y) {
 }  // namespace
 
 // Three angular rows that drive a child toward a wanted relative velocity, each limited by a torque
-// (ragdoll.md, "Servo3"). An implicit velocity servo: stable for any tone and mass ratio, because
+// (docs/sources.md, R1). An implicit velocity servo: stable for any tone and mass ratio, because
 // the solver sees contacts and neighbours.
 class Servo final : public btTypedConstraint {
  public:

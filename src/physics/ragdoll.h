@@ -1,8 +1,8 @@
 #pragma once
 // The ragdoll: one body in a fresh Bullet world on flat ground, its muscles tracking target poses.
 //
-// Recipe and figures: ragdoll.md. 17 parts, cone-twist joints, hinges at elbows and knees, muscles
-// as angular servo rows inside the solver, 240 Hz, 20 iterations. Same calls, same bits.
+// Recipe and figures: docs/sources.md, R. 17 parts, cone-twist joints, hinges at elbows and knees,
+// muscles as angular servo rows inside the solver, 240 Hz, 20 iterations. Same calls, same bits.
 
 #include <memory>
 

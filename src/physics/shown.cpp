@@ -85,7 +85,7 @@ void bend(Pose& pose, float trunk, float neck, float head) {
   pose.rotation[index(Joint::head)] = from_rotation_vector({radians(head), 0, 0});
 }
 
-// What a falling body does (ragdoll.md section 5), by the direction it falls in off its facing.
+// What a falling body does (docs/sources.md, R5), by the direction it falls in off its facing.
 Pose protective_pose(const Pose& now, float direction) {
   Pose pose = now;
   const float off = std::abs(direction);

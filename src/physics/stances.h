@@ -1,6 +1,6 @@
 #pragma once
 // Stances made by inverse kinematics, for what is measured on a body without a library: those of
-// the tables of ragdoll.md.
+// the tables of docs/sources.md, R.
 
 #include "physics/body.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Feet that stand when a blow lands stay where they are: the engine's soles creep under a body that
-// is struck (ragdoll.md, pitfall 11).
+// is struck (docs/sources.md, R7).
 
 #include <array>
 

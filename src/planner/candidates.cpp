@@ -1,6 +1,6 @@
 // Candidate moves: a quick score for every action that can follow, and the best k of a mixed list.
 //
-// k is the same at every depth: lists that narrow make a deeper search lose (planning.md).
+// k is the same at every depth: lists that narrow make a deeper search lose (docs/planning.md).
 
 #include <algorithm>
 #include <array>

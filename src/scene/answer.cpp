@@ -10,7 +10,7 @@ namespace ringcraft {
 namespace {
 
 // Ticks of simulation before the clip is in charge, where the body keeps its feet: inside the 150
-// ms after which viewers doubt a reaction (validation table V4).
+// ms after which viewers doubt a reaction (docs/sources.md, V4).
 constexpr Tick kSimulatedTicks = 18;
 constexpr Tick kAhead = 9;  // of the clip, that the end of the simulation is eased with
 

@@ -25,7 +25,7 @@ struct ActionMeasures {
   double strike_begin_s = 0;  // first tick at which it can hit
   double travel_m = 0;        // of the root over the action
   double turn_rad = 0;
-  double foot_skate = 0;             // validation table V4
+  double foot_skate = 0;             // docs/sources.md, V4
   std::size_t limit_violations = 0;  // frames with a joint beyond its range by more than 3 degrees
   double worst_limit_deg = 0;        // degrees beyond its range of the joint that is farthest so
   std::string worst_joint;           // that joint

@@ -27,7 +27,7 @@ auto of_kind(StrikeKind kind) {
   return [kind](const StrikeMeasures& m) { return m.strike.kind == kind; };
 }
 
-// Issue 4 over all actions: ranges of joints, sliding feet, parts inside each other.
+// Over all actions: ranges of joints, sliding feet, parts inside each other.
 void add_body_gates(LibraryCheck& check) {
   if (check.actions.empty()) return;
   double beyond = 0, excess = 0, skate = 0, slid = 0, all = 0, deepest = 0;
@@ -55,7 +55,7 @@ void add_body_gates(LibraryCheck& check) {
                          100 * kMostSelfPenetration, "cm"});
 }
 
-// Issue 4: authored strikes arrive within 3 cm of what they aim at, over the whole reach stated.
+// Authored strikes arrive within 3 cm of what they aim at, over the whole reach stated.
 void add_aim_gates(LibraryCheck& check) {
   double met = 0, all = 0, worst = 0;
   for (const StrikeMeasures& m : check.strikes) {
@@ -82,7 +82,7 @@ void add_seam_gates(LibraryCheck& check) {
   check.gates.push_back({"seams, jump of velocity, worst", jumps[n - 1], 0, kMostSeamJump, "m/s"});
 }
 
-// Validation table V1 and issue 4: speeds at the impact, in the world, on a body that stands.
+// As published (docs/sources.md, V1): speeds at the impact, in the world, on a body that stands.
 void add_speed_gates(LibraryCheck& check) {
   const auto impact = [](const StrikeMeasures& m) { return m.impact; };
   const auto start = [](const StrikeMeasures& m) { return m.start_to_contact_s; };

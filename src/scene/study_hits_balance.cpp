@@ -34,7 +34,7 @@ float threshold(const Holds& holds) {
 
 struct Zone {
   Part part;
-  std::array<float, 4> square, fighting;  // N s, simulated to the end (ragdoll.md section 3)
+  std::array<float, 4> square, fighting;  // N s, simulated to the end (docs/sources.md, R3)
 };
 // The published row of the shin holds the lead shin.
 constexpr std::array<Zone, 5> kZones{{{Part::chest, {29, 25, 32, 32}, {44, 43, 25, 33}},

@@ -26,8 +26,8 @@ struct Landed {
   double time = 0;                                     // s from the launch to the contact
 };
 
-// The head as a free body that carries the neck: within 10 % of the simulated head (ragdoll.md
-// section 4).
+// The head as a free body that carries the neck: within 10 % of the simulated head
+// (docs/sources.md, R4).
 void head_motion(const BodyModel& body, const ImpactInput& input, Landed& landed) {
   const WorldPose world = world_pose(body.skeleton, input.pose);
   const PartModel& head = body.parts[index(Part::head)];

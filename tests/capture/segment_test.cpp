@@ -1,5 +1,5 @@
 // Segmentation against what was seen by eye on real captures (../shared/mocap/README.md and
-// calibration.md section 0), and against the technique sheets, whose strikes are known exactly.
+// docs/sources.md, C0), and against the technique sheets, whose strikes are known exactly.
 
 #include "capture/segment.h"
 
@@ -96,7 +96,7 @@ TEST(Segmentation, KnowsWhichFootIsAheadAndWhereTheOpponentStands) {
   SKIP_WITHOUT_CAPTURES();
   const Segmentation orthodox = segmented("cmu/13_17.amc");
   EXPECT_FALSE(orthodox.southpaw);
-  EXPECT_NEAR(degrees(orthodox.guard_yaw), -55, 15);  // calibration.md section 1
+  EXPECT_NEAR(degrees(orthodox.guard_yaw), -55, 15);  // docs/sources.md, C1
   const Segmentation southpaw = segmented("debian/Boxing_Toes.bvh");
   EXPECT_TRUE(southpaw.southpaw);
   EXPECT_NEAR(degrees(southpaw.guard_yaw), 60, 15);

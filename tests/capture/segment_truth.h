@@ -1,6 +1,6 @@
 #pragma once
-// What was seen by eye on the captures of ../shared/mocap (its README and calibration.md section
-// 0), and how a list of blows compares with it.
+// What was seen by eye on the captures of ../shared/mocap (its README; docs/sources.md, C0), and
+// how a list of blows compares with it.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Seen {
 };
 using enum Seen::Kind;
 
-// By eye: calibration.md section 0.
+// By eye: docs/sources.md, C0.
 inline const std::vector<Seen> kEye13_17 = {
     {'L', 2.98, straight},  {'L', 10.02, straight}, {'L', 17.08, straight}, {'L', 21.58, straight},
     {'L', 28.81, straight}, {'L', 32.62, straight}, {'L', 36.98, straight}, {'R', 1.90, straight},

@@ -141,8 +141,8 @@ TEST(SheetMotion, PlantedFeetStayWithinTwoMillimetres) {
 }
 
 TEST(SheetMotion, NoFootSlides) {
-  // Validation V4: ankle and toes both near the floor while the slower one moves at 0.15-0.8 m/s
-  // for 0.15 s on end. A shuffle step is quicker than that.
+  // docs/sources.md, V4: ankle and toes both near the floor while the slower one moves at 0.15-0.8
+  // m/s for 0.15 s on end. A shuffle step is quicker than that.
   for (const auto& [name, action] : library()) {
     if (!stands(action)) continue;
     const std::vector<WorldPose> world = worlds(action);

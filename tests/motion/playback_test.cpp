@@ -75,8 +75,8 @@ Shown alone(const Clip& clip) {
   return shown;
 }
 
-// Foot skate after validation.md V4, at 60 Hz: ankle and toes within 3 cm of their standing height
-// while the slower of the two moves at 0.15-0.8 m/s over the ground, for 0.15 s on end.
+// Foot skate after docs/sources.md, V4, at 60 Hz: ankle and toes within 3 cm of their standing
+// height while the slower of the two moves at 0.15-0.8 m/s over the ground, for 0.15 s on end.
 float skate_ratio(const Shown& shown) {
   std::size_t skating = 0, total = 0;
   for (const Side side : kSides) {

@@ -24,7 +24,7 @@ class BlowOf : public testing::Test {
   }
 };
 
-// ragdoll.md section 4: relaxed jab 1.47, cross 3.24, lead hook 1.46, rear hook 1.24;
+// docs/sources.md, R4: relaxed jab 1.47, cross 3.24, lead hook 1.46, rear hook 1.24;
 // trained 2.5-3.
 TEST_F(BlowOf, EffectiveMassesAreThoseOfTheTable) {
   const Vec3 down{.3f, -1, 0};

@@ -41,7 +41,7 @@ TEST(Body, CentreOfMassStandsAt55To57PercentOfHeight) {
 }
 
 TEST(Body,
-     HeadMomentsAreThoseMeasured) {  // ragdoll.md section 4: .0263 pitch, .0181 yaw, .0244 roll
+     HeadMomentsAreThoseMeasured) {  // docs/sources.md, R4: .0263 pitch, .0181 yaw, .0244 roll
   const Vec3 i = make_body({}).parts[index(Part::head)].inertia;
   EXPECT_NEAR(i.x, .0263f, .001f);
   EXPECT_NEAR(i.y, .0181f, .001f);

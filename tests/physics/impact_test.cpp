@@ -268,7 +268,7 @@ TEST_F(Impact, AToughFighterTakesMoreToKnockOut) {
 }
 
 TEST_F(Impact, ACleanCrossSpinsTheHeadAsMeasuredAndDoesNotKnockOut) {
-  // ragdoll.md section 4: 26 N s, 20-60 mm below the head's centre: about 25 rad/s at neck tone .5.
+  // docs/sources.md, R4: 26 N s, 20-60 mm below the head's centre: about 25 rad/s at neck tone .5.
   float sum = 0;
   for (const float below : {.02f, .04f, .06f}) {
     const ImpactOutcome o =
@@ -281,7 +281,7 @@ TEST_F(Impact, ACleanCrossSpinsTheHeadAsMeasuredAndDoesNotKnockOut) {
 }
 
 TEST_F(Impact, TheLargeAndTheSmallScaleAsTheirPendulum) {
-  // ragdoll.md section 3: chest fore 22 at 60 kg / 1.65 m, 29 at 75 / 1.78, 37 at 95 / 1.90.
+  // docs/sources.md, R3: chest fore 22 at 60 kg / 1.65 m, 29 at 75 / 1.78, 37 at 95 / 1.90.
   const auto threshold = [](const BodySpec& spec) {
     const BodyModel b = make_body(spec);
     const Pose pose = stance::square(b);
@@ -298,7 +298,7 @@ TEST_F(Impact, TheLargeAndTheSmallScaleAsTheirPendulum) {
   EXPECT_NEAR(large / middle, 37.0f / 29, .16f);
 }
 
-// ragdoll.md section 3: N s held without a step, fore/aft/left/right, by the body simulated to its
+// docs/sources.md, R3: N s held without a step, fore/aft/left/right, by the body simulated to its
 // end; the decision comes within a quarter of it.
 TEST_F(Impact, ThresholdsAreThoseOfTheSimulatedTable) {
   struct Row {

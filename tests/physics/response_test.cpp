@@ -40,7 +40,7 @@ TEST_F(ResponseChoice, DirectionIsSeenFromTheBody) {
   EXPECT_EQ(chosen(ResponseKind::recovery_steps, 1, kPi, radians(90)), "steps_left_1");
 }
 
-TEST_F(ResponseChoice, AWrongDirectionIsWorseThanAWrongCount) {  // validation V4
+TEST_F(ResponseChoice, AWrongDirectionIsWorseThanAWrongCount) {  // docs/sources.md, V4
   EXPECT_EQ(chosen(ResponseKind::recovery_steps, 2, kPi / 2), "steps_left_1");
 }
 

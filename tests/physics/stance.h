@@ -1,5 +1,5 @@
 #pragma once
-// Test poses made by IK: ragdoll.md's square and fighting stances.
+// Test poses made by IK: the square and fighting stances of docs/sources.md, R.
 
 #include "motion/ik.h"
 #include "physics/stances.h"

@@ -24,7 +24,7 @@ TEST(StyleTest, EveryPublishedStyleReads) {
     const auto style = read_style(assets_folder() / "styles" / (std::string(name) + ".toml"));
     ASSERT_TRUE(style) << to_string(style.error());
     EXPECT_EQ(style->name, name);
-    EXPECT_LT(style->location_weight, 2);  // heavier ones lose the fight (planning.md section 8)
+    EXPECT_LT(style->location_weight, 2);  // heavier ones lose the fight (docs/sources.md, P)
     EXPECT_GE(style->candidates, 5);       // shorter lists make depth harmful
   }
 }

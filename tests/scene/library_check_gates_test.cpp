@@ -1,4 +1,4 @@
-// Every gate of issue 4 over all actions falls on a library that was made bad for it.
+// Every gate over all actions falls on a library that was made bad for it.
 #include "scene/library_check_gates.h"
 
 #include <gtest/gtest.h>
