@@ -80,7 +80,7 @@ void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& ta
 }
 
 void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, float soft_share,
-                   Pose& pose) {
+                   Pose& pose, float straight) {
   const WorldPose world = world_pose(skeleton, pose);
   const Vec3 root = world.position[index(limb.root)], middle = world.position[index(limb.middle)],
              end = world.position[index(limb.end)];
@@ -92,7 +92,7 @@ void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, floa
   const Vec3 across = glm::cross(u, l);
   const float sense = glm::dot(across, hinge) < 0 ? -1.0f : 1.0f;
   const Vec3 hinge_across = normalized_or(hinge - l * glm::dot(hinge, l), hinge);
-  const float trust = std::min(1.0f, glm::length(across) / 0.05f);
+  const float trust = std::min(1.0f, glm::length(across) / straight);
   const Vec3 axis = normalized_or(
       normalized_or(across, hinge) * (sense * trust) + hinge_across * (1 - trust), hinge_across);
   const float flexed = sense * std::atan2(glm::length(across), glm::dot(u, l));

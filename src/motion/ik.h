@@ -21,12 +21,16 @@ Vec3 hinge_axis(const Limb& limb);
 // about one axis only (x of the lower leg, y of the lower arm in the rest pose), as a hinge does.
 void solve_limb(const Skeleton& skeleton, const Limb& limb, const LimbTarget& target, Pose& pose);
 
+inline constexpr float kStraightSine = 0.05f;  // of the flexion of a nearly straight limb
+
 // Moves the limb's end to `target` with as little change as that takes: the middle joint flexes in
 // the plane it bends in, then the whole limb turns. A limb that is there already stays as it is,
 // bends off the hinge's axis included; one that bends backwards is set right. The end joint keeps
-// its world rotation. Beyond `soft_share` of the limb's length the reach is eased.
+// its world rotation. Beyond `soft_share` of the limb's length the reach is eased. The plane of a
+// limb whose flexion has a sine below `straight` is more and more its hinge's: its own says little
+// then, and turns fast.
 void move_limb_end(const Skeleton& skeleton, const Limb& limb, Vec3 target, float soft_share,
-                   Pose& pose);
+                   Pose& pose, float straight = kStraightSine);
 
 // How far a limb reaches, as a share of its length.
 float reach_share(const Skeleton& skeleton, const Limb& limb, const WorldPose& world);

@@ -18,7 +18,8 @@ constexpr std::array<std::array<Part, 2>, 4> kParts = {{
     {Part::left_foot, Part::left_shin},
     {Part::right_foot, Part::right_shin},
 }};
-constexpr int kRounds = 3;  // the way out of one part may lead the other into something else
+constexpr float kLow = .1f;  // m: a limb's end that is lower is not pressed down
+constexpr int kRounds = 3;   // the way out of one part may lead the other into something else
 
 Vec3 shortened(Vec3 way, float most) {
   const float length = glm::length(way);
@@ -53,11 +54,13 @@ float going_out(const WorldPose& world, const Limb& limb, Vec3 offset) {
   return std::min(kGoingOut, kTurningOut * glm::distance(end, world.position[index(limb.root)]));
 }
 
-// As little of the limb turns as that takes: a folded one does not turn over.
+// As little of the limb turns as that takes: a folded one does not turn over, nor does one that is
+// held far back while its clip straightens it.
 void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
   const Limb& limb = kArmsAndLegs[mover];
   const Vec3 end = world_pose(body.skeleton, pose).position[index(limb.end)];
-  move_limb_end(body.skeleton, limb, end + way, 1.0f, pose);
+  constexpr float kStraight = .5f;  // 30 degrees
+  move_limb_end(body.skeleton, limb, end + way, 1.0f, pose, kStraight);
 }
 
 }  // namespace
@@ -85,6 +88,8 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
         if (way == Vec3{}) continue;
         clear = false;
         offset = shortened(offset + way, kMostKeptOut[m]);
+        const float height = world.position[index(kArmsAndLegs[m].end)].y;
+        offset.y = std::max(offset.y, std::min(0.0f, kLow - height));
         offset = now[m] + shortened(offset - now[m], fastest * kTickSeconds);
         moved = pose;
         move_end(body, m, offset, moved);

@@ -84,7 +84,6 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   }
   actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
   actor.seam = true;
-  actor.kept_out = {};  // what is shown is where the new motion starts from
   const Playback& playback = actor.motion.playback;
   if (playback.started() && !actor.motion.simulated) actor.free = limit_excesses(playback.shown());
   actor.motion.gives = {};
@@ -135,8 +134,8 @@ Pose Stage::stopped(const BodyModel& body, Motion& motion, const Pose& pose) {
   std::array<LandedLimb, 4>& landed = motion.landed;
   const WorldPose world = world_pose(body.skeleton, pose);
   const FootContacts held = motion.playback.held();
-  if (held.left) landed[2] = {};
-  if (held.right) landed[3] = {};
+  if (held.left) landed[2].let_go();
+  if (held.right) landed[3].let_go();
   for (std::size_t i = 0; i < landed.size(); ++i) {
     offsets[i] = landed[i].hold_back(world.position[index(kArmsAndLegs[i].end)]);
   }
@@ -193,7 +192,8 @@ bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
 
 void Stage::show(Tick tick) {
   for (Actor& actor : actors_) {
-    if (go_on(actor, tick, actor.motion)) actor.kept_out = {};
+    // What is shown is where a new motion starts from.
+    if (go_on(actor, tick, actor.motion) || actor.seam) actor.kept_out = {};
     free_joints(actor, tick);
     actor.swept.before = actor.swept.after;
     actor.swept.guards =
@@ -320,7 +320,7 @@ bool Stage::simulated(FighterId fighter) const {
 std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
   const Actor& actor = actors_[fighter.at()];
   Motion ahead = actor.motion;
-  LimbOffsets offsets = actor.kept_out;
+  LimbOffsets offsets = actor.seam ? LimbOffsets{} : actor.kept_out;
   std::vector<Pose> poses{ahead.playback.shown()};
   for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
     if (go_on(actor, next, ahead)) offsets = {};

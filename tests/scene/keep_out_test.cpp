@@ -181,6 +181,42 @@ TEST_F(KeepOut, ALegThatIsHeldBackDoesNotTurnOver) {
   }
 }
 
+// A jab that is held back far from where its clip is: where the clip straightens the arm, whatever
+// plane its few degrees of flexion lie in says nothing of where the elbow belongs.
+TEST_F(KeepOut, AnArmThatIsHeldBackDoesNotThrowUpItsElbow) {
+  const Limb limb = arm(Side::left);
+  Pose jab = pose;
+  const Vec3 shoulder = world_pose(body.skeleton, pose).position[index(limb.root)];
+  move_limb_end(body.skeleton, limb, shoulder + Vec3{-.05f, .05f, 2}, 1.0f, jab);
+  LimbOffsets offsets{};
+  offsets[0] = {0, 0, -.2f};
+  std::vector<Vec3> elbows, free;
+  for (const float off : {-60.0f, 0.0f, 60.0f}) {
+    Pose bent = jab;  // 17 degrees, up to 60 off the hinge's plane
+    const Vec3 along = glm::normalize(body.skeleton.offset[index(limb.end)]);
+    const Vec3 axis = glm::angleAxis(radians(off), along) * hinge_axis(limb);
+    bent.rotation[index(limb.middle)] = glm::angleAxis(radians(17), axis);
+    const WorldPose shown = world_pose(body.skeleton, with_offsets(body, bent, offsets));
+    elbows.push_back(shown.position[index(limb.middle)]);
+  }
+  EXPECT_LT(glm::distance(elbows[0], elbows[1]), .10f);
+  EXPECT_LT(glm::distance(elbows[2], elbows[1]), .10f);
+}
+
+// One limb is over another's that lies on the floor: the way out is not through the floor.
+TEST_F(KeepOut, AFootIsNotPressedThroughTheFloor) {
+  const Vec3 ankle = world_pose(body.skeleton, pose).position[index(Joint::left_foot)];
+  BodyCapsules other;
+  other.fill({{0, 50, 0}, {0, 51, 0}, .05f});
+  const Vec3 at = ankle + Vec3{0, .06f, .05f};
+  other[0] = {at - Vec3{.3f, 0, 0}, at + Vec3{.3f, 0, 0}, .06f};
+  const std::array<BodyCapsules, 1> others{other};
+  LimbOffsets offsets{};
+  for (int tick = 0; tick < 12; ++tick) offsets = kept_out(body, pose, {}, others, offsets);
+  EXPECT_GT(glm::length(offsets[2]), .02f);
+  EXPECT_GE(offsets[2].y, 0);
+}
+
 class Landed : public KeepOut {
  protected:
   // The glove goes 6 cm in the tick, and meets something after two thirds of that.
@@ -273,6 +309,23 @@ TEST_F(Landed, ALimbThatPressesOnComesFreeAfterAWhile) {
   }
   EXPECT_NEAR(seconds(still), .15, .01);
   EXPECT_LT(seconds(all), .4);
+}
+
+// A round kick that steps through: its foot comes down half a metre beyond the blow and carries.
+TEST_F(Landed, ALimbIsWhereItsClipIsBeforeItCarries) {
+  LandedLimb limb = landed();
+  float before = 0, fastest = 0;  // m of offset, m/s
+  for (Tick tick = 1; tick <= ticks(.5); ++tick) {
+    const float clip = .5f * std::min(1.0f, static_cast<float>(tick) / 12);
+    limb.step();
+    const float now = limb.hold_back(glove + Vec3{0, 0, .04f + clip}).z;
+    if (seconds(tick) > .15) fastest = std::max(fastest, (now - before) / kTickSeconds);
+    before = now;
+  }
+  EXPECT_EQ(before, 0);
+  EXPECT_LT(fastest, 4);
+  limb.let_go();
+  EXPECT_EQ(limb.hold_back(glove), Vec3{});
 }
 
 }  // namespace

@@ -275,5 +275,34 @@ TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
   EXPECT_LT(deep, 4);  // 11 where each is kept out once
 }
 
+// Who is struck begins an answer within the tick that shows the blow: what held its arms off until
+// then is not gone in that tick.
+TEST_F(StageTest, AnArmThatIsHeldOffStaysWhereItIsInTheTickOfAnAnswer) {
+  Stage stage(default_library(), {make_body({}), make_body({})});
+  Stage alone(default_library(), {make_body({})});
+  const FighterId self(0);
+  stage.begin(self, launch("jab_jab_cross", 0, {}));
+  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
+  alone.begin(self, launch("jab_jab_cross", 0, {}));
+  const auto hand = [&](const Stage& of, Joint which) {
+    return world_pose(of.body(self).skeleton, of.shown(self)).position[index(which)];
+  };
+  int seen = 0;
+  for (Tick t = 0; t < 90; ++t) {
+    stage.show(t);
+    show(alone, t);
+    Stage answers = stage;
+    answers.begin(self, launch("guard_1", t, {}));
+    answers.keep_out_and_record();
+    stage.keep_out_and_record();
+    for (const Joint joint : {Joint::left_hand, Joint::right_hand}) {
+      if (glm::distance(hand(stage, joint), hand(alone, joint)) < .15f) continue;
+      ++seen;
+      EXPECT_LT(glm::distance(hand(answers, joint), hand(stage, joint)), .03f) << t;
+    }
+  }
+  EXPECT_GT(seen, 3);
+}
+
 }  // namespace
 }  // namespace ringcraft
