@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -57,6 +60,251 @@ int run_completion(const std::string& shell) {
   return 0;
 }
 
+std::shared_ptr<std::string> add_scene(CLI::App& command) {
+  auto scene = std::make_shared<std::string>("duel");
+  command.add_option("SCENE", *scene, "Scene file, or the name of one in assets/scenes");
+  return scene;
+}
+
+std::shared_ptr<std::string> add_library(CLI::App& command) {
+  auto library = std::make_shared<std::string>("kickboxing");
+  command.add_option("LIBRARY", *library,
+                     "Library file, manifest, folder, or the name of one in assets");
+  return library;
+}
+
+// Each adds one subcommand; `code` receives its exit code. What it is asked is shared with its
+// callback, which runs when the function that added it has returned.
+
+void add_fight(CLI::App& app, CommonOptions& options, int& code) {
+  CLI::App* fight = app.add_subcommand("fight", "Simulate a scene: GLB, events, report and a page");
+  const auto scene = add_scene(*fight);
+  const auto asked = std::make_shared<FightCommandOptions>();
+  fight->add_option("--export", asked->exports, "Also bvh or vrma, one file a fighter")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"bvh", "vrma"}))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  fight
+      ->add_option("--export-profile", asked->profile,
+                   "Names, axes and unit of the BVH: a file of assets/profiles")
+      ->type_name("PROFILE")
+      ->needs("--export");
+  fight->add_flag("--root-motion", asked->root_motion,
+                  "fight.glb moves each fighter's own node over the ground");
+  add_common(*fight, options, Overrides::seed_and_values);
+  fight->callback([=, &options, &code] { code = run_fight(*scene, *asked, options); });
+}
+
+void add_hit(CLI::App& app, CommonOptions& options, int& code) {
+  const auto asked = std::make_shared<HitOptions>();
+  CLI::App* hit =
+      app.add_subcommand("hit", "One hit on one body: the response, its numbers, GLB and page");
+  hit->add_option("--pose", asked->pose, "The interrupted action and the seconds into it")
+      ->type_name("ACTION@S");
+  hit->add_option("--part", asked->part, "Struck body part");
+  hit->add_option("--impulse", asked->impulse, "N s along the fighter's left, up and fore")
+      ->type_name("X,Y,Z");
+  hit->add_option("--strike", asked->strike, "A blow of a placed attacker, not an impulse")
+      ->type_name("ACTION")
+      ->excludes("--impulse");
+  hit->add_option("--attacker", asked->attacker, "Body of the attacker")->needs("--strike");
+  hit->add_option("--distance", asked->distance, "m between the two, else where it lands best")
+      ->needs("--strike");
+  hit->add_option("--sweep", asked->sweep, "A map over impulse (N s), direction (deg) or tone")
+      ->type_name("AXIS=FROM:TO:STEP")
+      ->excludes("--strike")
+      ->take_all();
+  hit->add_option("--tone", asked->tone, "Muscle tone")->check(within(0.0, 1.0));
+  hit->add_option("--body", asked->body, "A file of assets/bodies");
+  hit->add_option("--library", asked->library, "Motion library");
+  add_common(*hit, options, Overrides::none);
+  hit->callback([=, &options, &code] { code = run_hit(*asked, options); });
+}
+
+void add_tree(CLI::App& app, CommonOptions& options, int& code) {
+  CLI::App* tree = app.add_subcommand("tree", "The game tree of one decision: JSON, SVG, a trace");
+  const auto scene = add_scene(*tree);
+  const auto asked = std::make_shared<TreeOptions>();
+  tree->add_option("--at", asked->at_s, "The first decision from this time on, s")
+      ->type_name("T")
+      ->required();
+  tree->add_option("--nodes", asked->nodes, "Nodes to write out at most")
+      ->type_name("N")
+      ->check(CLI::Range(1, 20000));
+  add_common(*tree, options, Overrides::seed_and_values);
+  tree->callback([=, &options, &code] { code = run_tree(*scene, *asked, options); });
+}
+
+void add_sparring(CLI::App& app, CommonOptions& options, int& code) {
+  const auto asked = std::make_shared<SparringOptions>();
+  CLI::App* sparring = app.add_subcommand(
+      "sparring", "Every attack against every defense: records and the offense/defense table");
+  sparring->add_option("LIBRARY", asked->library, "Manifest, folder, or the name of one in assets");
+  sparring->add_option("--attacker", asked->attacker, "Body of the attacker");
+  sparring->add_option("--defender", asked->defender, "Body of the defender");
+  sparring
+      ->add_option("--captures", asked->captures,
+                   "Two people of one capture space, instead of a library")
+      ->type_name("A B")
+      ->expected(2)
+      ->excludes("LIBRARY");
+  add_common(*sparring, options, Overrides::none);
+  sparring->callback([=, &options, &code] { code = run_sparring(*asked, options); });
+}
+
+void add_batch(CLI::App& app, CommonOptions& options, int& code) {
+  CLI::App* batch = app.add_subcommand(
+      "batch", "Many bouts of a scene, a seed each: means and intervals; goes on where it stopped");
+  const auto scene = add_scene(*batch);
+  const auto asked = std::make_shared<BatchOptions>();
+  batch->add_option("--count", asked->count, "Bouts; the first has the scene's seed")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000));
+  add_common(*batch, options, Overrides::seed_and_values);
+  batch->callback([=, &options, &code] { code = run_batch_command(*scene, *asked, options); });
+}
+
+void add_merge(CLI::App& app, CommonOptions& options, int& code) {
+  const auto folders = std::make_shared<std::vector<std::string>>();
+  CLI::App* merge =
+      app.add_subcommand("merge", "Put the bouts of several batches together, as one batch");
+  merge->add_option("DIR", *folders, "Folders that `batch` wrote")->required();
+  add_common(*merge, options, Overrides::none);
+  merge->callback([=, &options, &code] { code = run_merge(*folders, options); });
+}
+
+void add_replay(CLI::App& app, CommonOptions& options, int& code) {
+  const auto events = std::make_shared<std::string>();
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");
+  replay->add_option("EVENTS", *events, "An events.jsonl")->required();
+  add_for_stdout(*replay, options);
+  replay->callback([=, &options, &code] { code = run_replay(*events, options); });
+}
+
+void add_library_build(CLI::App& library, CommonOptions& options, int& code) {
+  const auto asked = std::make_shared<LibraryBuildOptions>();
+  CLI::App* build =
+      library.add_subcommand("build", "One library file from a manifest or a folder of captures");
+  build->add_option("SOURCE", asked->source, "Manifest, folder, or the name of one in assets")
+      ->required();
+  build
+      ->add_option("--responses-from", asked->responses_from,
+                   "Library that stands in for responses a folder of captures lacks, or none")
+      ->type_name("NAME");
+  build->add_flag("--not-mirrored", asked->not_mirrored, "No action also for the other side");
+  auto* interpolated = build->add_flag("--interpolate", asked->interpolate,
+                                       "Blends between repetitions also of a manifest's actions");
+  build
+      ->add_flag("--not-interpolated", asked->not_interpolated,
+                 "No blends between a folder's repetitions")
+      ->excludes(interpolated);
+  build->add_flag("--not-connected", asked->not_connected, "Without the motion graph");
+  add_common(*build, options, Overrides::none);
+  build->callback([=, &options, &code] { code = run_library_build(*asked, options); });
+}
+
+void add_library_interpolate(CLI::App& library, CommonOptions& options, int& code) {
+  CLI::App* interpolate = library.add_subcommand(
+      "interpolate", "How near blends of repetitions come to wanted targets, steps and turns");
+  const auto name = add_library(*interpolate);
+  const auto asked = std::make_shared<InterpolateOptions>();
+  interpolate->add_option("--wanted", asked->wanted, "Wanted outcomes for each family")
+      ->check(CLI::Range(1, 10000));
+  add_common(*interpolate, options, Overrides::seed);
+  interpolate->callback(
+      [=, &options, &code] { code = run_library_interpolate(*name, *asked, options); });
+}
+
+void add_library_inspect(CLI::App& library, CommonOptions& options, int& code) {
+  CLI::App* inspect = library.add_subcommand("inspect", "Every action as a filmstrip and a table");
+  const auto name = add_library(*inspect);
+  add_common(*inspect, options, Overrides::none);
+  inspect->get_option("--json")->excludes(inspect->get_option("--out"));  // writes no page
+  inspect->callback([=, &options, &code] { code = run_library_inspect(*name, options); });
+}
+
+void add_library_check(CLI::App& library, CommonOptions& options, int& code) {
+  CLI::App* check = library.add_subcommand("check", "Named faults of every action; exit 1 if any");
+  const auto name = add_library(*check);
+  const auto heights = std::make_shared<CheckHeights>();
+  add_for_stdout(*check, options);
+  check->add_option("--height", heights->own, "Height of the fighter, m")->check(within(1.2, 2.3));
+  check->add_option("--opponent", heights->opponent, "Height of the opponent, m")
+      ->check(within(1.2, 2.3));
+  check->callback([=, &options, &code] { code = run_library_check(*name, *heights, options); });
+}
+
+void add_library_commands(CLI::App& app, CommonOptions& options, int& code) {
+  CLI::App* library = app.add_subcommand("library", "Make a motion library, look into it");
+  library->require_subcommand(1);
+  add_library_build(*library, options, code);
+  add_library_interpolate(*library, options, code);
+  add_library_inspect(*library, options, code);
+  add_library_check(*library, options, code);
+}
+
+void add_schema(CLI::App& app, int& code) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App* schema = app.add_subcommand("schema", "Print a published JSON Schema");
+  schema->add_option("SCHEMA", *name, "scene, style, body, manifest, sheet or profile")->required();
+  schema->callback([=, &code] { code = run_schema(*name); });
+}
+
+void add_bench(CLI::App& app, CommonOptions& options, int& code) {
+  CLI::App* bench = app.add_subcommand(
+      "bench", "What a fight costs on this machine; a signature that no machine changes");
+  const auto scene = add_scene(*bench);
+  const auto asked = std::make_shared<BenchOptions>();
+  bench->add_option("--duration", asked->duration_s, "Length of the fight, s")
+      ->check(within(0.5, 3600.0));
+  bench->add_option("--rounds", asked->rounds, "How often the fight is fought")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  add_common(*bench, options, Overrides::seed_and_values);
+  bench->callback([=, &options, &code] { code = run_bench_command(*scene, *asked, options); });
+}
+
+void add_serve(CLI::App& app, CommonOptions& options, int& code) {
+  const auto asked = std::make_shared<ServeOptions>();
+  CLI::App* serve =
+      app.add_subcommand("serve", "Show a folder of results in a browser, on this machine only");
+  serve->add_option("DIR", asked->folder, "Folder of results");
+  serve->add_option("--port", asked->port, "Port of 127.0.0.1; 0 takes any that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+  add_talk(*serve, options);
+  serve->callback([=, &options, &code] { code = run_serve(*asked, options); });
+}
+
+void add_view(CLI::App& app, CommonOptions& options, int& code) {
+  const auto asked = std::make_shared<ViewOptions>();
+  CLI::App* view =
+      app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
+  view->add_option("FOLDER|PAGE|SCENE", asked->what, "Folder of a result, page, or scene");
+  view->add_flag("--print", asked->print, "Print the address, open nothing");
+  add_common(*view, options, Overrides::seed_and_values);
+  view->callback([=, &options, &code] { code = run_view(*asked, options); });
+}
+
+void add_completion(CLI::App& app, int& code) {
+  const auto shell = std::make_shared<std::string>();
+  CLI::App* completion =
+      app.add_subcommand("completion", "Print the script that completes commands in a shell");
+  completion->add_option("SHELL", *shell, "Whose script")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->callback([=, &code] { code = run_completion(*shell); });
+  // What the scripts ask: `ringcraft complete-words ringcraft WORD...`, the last being typed.
+  CLI::App* words = app.add_subcommand("complete-words")->group("")->prefix_command();
+  words->callback([&app, words] {
+    std::vector<std::string> typed = words->remaining();
+    if (!typed.empty()) typed.erase(typed.begin());
+    fmt::print("{}", completion_lines(complete(app, typed)));
+  });
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Fights in which hits are physical.", "ringcraft");
   app.set_version_flag("--version", RINGCRAFT_VERSION);
@@ -73,204 +321,20 @@ int run(int argc, char** argv) {
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int code = 0;
 
-  std::string scene = "duel";
-  CLI::App* fight = app.add_subcommand("fight", "Simulate a scene: GLB, events, report and a page");
-  fight->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
-  FightCommandOptions fight_options;
-  fight->add_option("--export", fight_options.exports, "Also bvh or vrma, one file a fighter")
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember({"bvh", "vrma"}))
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  fight
-      ->add_option("--export-profile", fight_options.profile,
-                   "Names, axes and unit of the BVH: a file of assets/profiles")
-      ->type_name("PROFILE")
-      ->needs("--export");
-  fight->add_flag("--root-motion", fight_options.root_motion,
-                  "fight.glb moves each fighter's own node over the ground");
-  add_common(*fight, options, Overrides::seed_and_values);
-  fight->callback([&] { code = run_fight(scene, fight_options, options); });
-
-  HitOptions hit_options;
-  CLI::App* hit =
-      app.add_subcommand("hit", "One hit on one body: the response, its numbers, GLB and page");
-  hit->add_option("--pose", hit_options.pose, "The interrupted action and the seconds into it")
-      ->type_name("ACTION@S");
-  hit->add_option("--part", hit_options.part, "Struck body part");
-  hit->add_option("--impulse", hit_options.impulse, "N s along the fighter's left, up and fore")
-      ->type_name("X,Y,Z");
-  hit->add_option("--strike", hit_options.strike, "A blow of a placed attacker, not an impulse")
-      ->type_name("ACTION")
-      ->excludes("--impulse");
-  hit->add_option("--attacker", hit_options.attacker, "Body of the attacker")->needs("--strike");
-  hit->add_option("--distance", hit_options.distance, "m between the two, else where it lands best")
-      ->needs("--strike");
-  hit->add_option("--sweep", hit_options.sweep, "A map over impulse (N s), direction (deg) or tone")
-      ->type_name("AXIS=FROM:TO:STEP")
-      ->excludes("--strike")
-      ->take_all();
-  hit->add_option("--tone", hit_options.tone, "Muscle tone")->check(within(0.0, 1.0));
-  hit->add_option("--body", hit_options.body, "A file of assets/bodies");
-  hit->add_option("--library", hit_options.library, "Motion library");
-  add_common(*hit, options, Overrides::none);
-  hit->callback([&] { code = run_hit(hit_options, options); });
-
-  TreeOptions tree_options;
-  CLI::App* tree = app.add_subcommand("tree", "The game tree of one decision: JSON, SVG, a trace");
-  tree->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
-  tree->add_option("--at", tree_options.at_s, "The first decision from this time on, s")
-      ->type_name("T")
-      ->required();
-  tree->add_option("--nodes", tree_options.nodes, "Nodes to write out at most")
-      ->type_name("N")
-      ->check(CLI::Range(1, 20000));
-  add_common(*tree, options, Overrides::seed_and_values);
-  tree->callback([&] { code = run_tree(scene, tree_options, options); });
-
-  SparringOptions sparring_options;
-  CLI::App* sparring = app.add_subcommand(
-      "sparring", "Every attack against every defense: records and the offense/defense table");
-  sparring->add_option("LIBRARY", sparring_options.library,
-                       "Manifest, folder, or the name of one in assets");
-  sparring->add_option("--attacker", sparring_options.attacker, "Body of the attacker");
-  sparring->add_option("--defender", sparring_options.defender, "Body of the defender");
-  sparring
-      ->add_option("--captures", sparring_options.captures,
-                   "Two people of one capture space, instead of a library")
-      ->type_name("A B")
-      ->expected(2)
-      ->excludes("LIBRARY");
-  add_common(*sparring, options, Overrides::none);
-  sparring->callback([&] { code = run_sparring(sparring_options, options); });
-
+  add_fight(app, options, code);
+  add_hit(app, options, code);
+  add_tree(app, options, code);
+  add_sparring(app, options, code);
   add_study_command(app, add_common, options, code);
-
-  BatchOptions batch_options;
-  CLI::App* batch = app.add_subcommand(
-      "batch", "Many bouts of a scene, a seed each: means and intervals; goes on where it stopped");
-  batch->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
-  batch->add_option("--count", batch_options.count, "Bouts; the first has the scene's seed")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000));
-  add_common(*batch, options, Overrides::seed_and_values);
-  batch->callback([&] { code = run_batch_command(scene, batch_options, options); });
-
-  std::vector<std::string> folders;
-  CLI::App* merge =
-      app.add_subcommand("merge", "Put the bouts of several batches together, as one batch");
-  merge->add_option("DIR", folders, "Folders that `batch` wrote")->required();
-  add_common(*merge, options, Overrides::none);
-  merge->callback([&] { code = run_merge(folders, options); });
-
-  std::string events_file;
-  CLI::App* replay = app.add_subcommand(
-      "replay", "Recompute every hit of a fight from its events.jsonl; exit 1 where one differs");
-  replay->add_option("EVENTS", events_file, "An events.jsonl")->required();
-  add_for_stdout(*replay, options);
-  replay->callback([&] { code = run_replay(events_file, options); });
-
-  std::string library_name = "kickboxing";
-  CLI::App* library = app.add_subcommand("library", "Make a motion library, look into it");
-  library->require_subcommand(1);
-  LibraryBuildOptions build_options;
-  CLI::App* build =
-      library->add_subcommand("build", "One library file from a manifest or a folder of captures");
-  build
-      ->add_option("SOURCE", build_options.source, "Manifest, folder, or the name of one in assets")
-      ->required();
-  build
-      ->add_option("--responses-from", build_options.responses_from,
-                   "Library that stands in for responses a folder of captures lacks, or none")
-      ->type_name("NAME");
-  build->add_flag("--not-mirrored", build_options.not_mirrored,
-                  "No action also for the other side");
-  auto* interpolated = build->add_flag("--interpolate", build_options.interpolate,
-                                       "Blends between repetitions also of a manifest's actions");
-  build
-      ->add_flag("--not-interpolated", build_options.not_interpolated,
-                 "No blends between a folder's repetitions")
-      ->excludes(interpolated);
-  build->add_flag("--not-connected", build_options.not_connected, "Without the motion graph");
-  add_common(*build, options, Overrides::none);
-  build->callback([&] { code = run_library_build(build_options, options); });
-  InterpolateOptions interpolate_options;
-  CLI::App* interpolate = library->add_subcommand(
-      "interpolate", "How near blends of repetitions come to wanted targets, steps and turns");
-  interpolate->add_option("LIBRARY", library_name,
-                          "Library file, manifest, folder, or the name of one in assets");
-  interpolate->add_option("--wanted", interpolate_options.wanted, "Wanted outcomes for each family")
-      ->check(CLI::Range(1, 10000));
-  add_common(*interpolate, options, Overrides::seed);
-  interpolate->callback(
-      [&] { code = run_library_interpolate(library_name, interpolate_options, options); });
-  CLI::App* inspect = library->add_subcommand("inspect", "Every action as a filmstrip and a table");
-  inspect->add_option("LIBRARY", library_name,
-                      "Library file, manifest, folder, or the name of one in assets");
-  add_common(*inspect, options, Overrides::none);
-  inspect->get_option("--json")->excludes(inspect->get_option("--out"));  // writes no page
-  inspect->callback([&] { code = run_library_inspect(library_name, options); });
-  CheckHeights check_heights;
-  CLI::App* check = library->add_subcommand("check", "Named faults of every action; exit 1 if any");
-  check->add_option("LIBRARY", library_name,
-                    "Library file, manifest, folder, or the name of one in assets");
-  add_for_stdout(*check, options);
-  check->add_option("--height", check_heights.own, "Height of the fighter, m")
-      ->check(within(1.2, 2.3));
-  check->add_option("--opponent", check_heights.opponent, "Height of the opponent, m")
-      ->check(within(1.2, 2.3));
-  check->callback([&] { code = run_library_check(library_name, check_heights, options); });
-
-  std::string schema_name;
-  CLI::App* schema = app.add_subcommand("schema", "Print a published JSON Schema");
-  schema->add_option("SCHEMA", schema_name, "scene, style, body, manifest, sheet or profile")
-      ->required();
-  schema->callback([&] { code = run_schema(schema_name); });
-
-  BenchOptions bench_options;
-  CLI::App* bench = app.add_subcommand(
-      "bench", "What a fight costs on this machine; a signature that no machine changes");
-  bench->add_option("SCENE", scene, "Scene file, or the name of one in assets/scenes");
-  bench->add_option("--duration", bench_options.duration_s, "Length of the fight, s")
-      ->check(within(0.5, 3600.0));
-  bench->add_option("--rounds", bench_options.rounds, "How often the fight is fought")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000));
-  add_common(*bench, options, Overrides::seed_and_values);
-  bench->callback([&] { code = run_bench_command(scene, bench_options, options); });
-
-  ServeOptions serve_options;
-  CLI::App* serve =
-      app.add_subcommand("serve", "Show a folder of results in a browser, on this machine only");
-  serve->add_option("DIR", serve_options.folder, "Folder of results");
-  serve->add_option("--port", serve_options.port, "Port of 127.0.0.1; 0 takes any that is free")
-      ->type_name("N")
-      ->check(CLI::Range(0, 65535));
-  add_talk(*serve, options);
-  serve->callback([&] { code = run_serve(serve_options, options); });
-
-  ViewOptions view_options;
-  CLI::App* view =
-      app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
-  view->add_option("FOLDER|PAGE|SCENE", view_options.what, "Folder of a result, page, or scene");
-  view->add_flag("--print", view_options.print, "Print the address, open nothing");
-  add_common(*view, options, Overrides::seed_and_values);
-  view->callback([&] { code = run_view(view_options, options); });
-
-  std::string shell;
-  CLI::App* completion =
-      app.add_subcommand("completion", "Print the script that completes commands in a shell");
-  completion->add_option("SHELL", shell, "Whose script")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  completion->callback([&] { code = run_completion(shell); });
-  // What the scripts ask: `ringcraft complete-words ringcraft WORD...`, the last being typed.
-  CLI::App* words = app.add_subcommand("complete-words")->group("")->prefix_command();
-  words->callback([&] {
-    std::vector<std::string> typed = words->remaining();
-    if (!typed.empty()) typed.erase(typed.begin());
-    fmt::print("{}", completion_lines(complete(app, typed)));
-  });
+  add_batch(app, options, code);
+  add_merge(app, options, code);
+  add_replay(app, options, code);
+  add_library_commands(app, options, code);
+  add_schema(app, code);
+  add_bench(app, options, code);
+  add_serve(app, options, code);
+  add_view(app, options, code);
+  add_completion(app, code);
 
   // Logs go to stderr, results to stdout or files.
   app.parse_complete_callback([&] {
