@@ -13,9 +13,9 @@
 #include "base/quantile.h"
 #include "base/random.h"
 #include "base/utf8.h"
-#include "capture/filmstrip.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
+#include "io/filmstrip.h"
 #include "motion/quality.h"
 #include "scene/blend_judge.h"
 

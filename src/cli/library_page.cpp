@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/markup.h"
-#include "capture/filmstrip.h"
-#include "capture/graph_picture.h"
+#include "io/filmstrip.h"
+#include "io/graph_picture.h"
 #include "scene/library_check.h"
 #include "scene/sparring_files.h"
 

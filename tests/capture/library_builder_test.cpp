@@ -12,7 +12,6 @@
 #include "base/temporary_folder.h"
 #include "capture/bvh.h"
 #include "capture/cut.h"
-#include "capture/filmstrip.h"
 #include "capture/retarget.h"
 
 namespace ringcraft {
@@ -348,13 +347,6 @@ TEST_F(Kickboxing, BuildsAStronglyConnectedLibraryThatIsTheSameEveryTime) {
   for (const ActionId from : first->launchable())
     for (const ActionId to : first->launchable())
       EXPECT_NE(first->machine().path(from, to), nullptr);
-}
-
-TEST_F(Kickboxing, AFilmstripShowsEveryAction) {
-  const std::string svg = filmstrip_svg(skeleton_, *actions_);
-  for (const Action& action : *actions_)
-    EXPECT_THAT(svg, HasSubstr(">" + action.name + " ")) << action.name;
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
 // How far a foot goes over the floor, lower than a finger is thick, before it stands or after it

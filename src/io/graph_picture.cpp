@@ -1,4 +1,4 @@
-#include "capture/graph_picture.h"
+#include "io/graph_picture.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "capture/filmstrip.h"
+#include "io/filmstrip.h"
 
 #include <algorithm>
 #include <cmath>
