@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "motion/ik.h"
 #include "motion/joint_turns.h"
@@ -138,6 +140,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
         std::min(reach_share(skeleton_, arm(side), shown), 0.995f);
     const auto i = static_cast<std::size_t>(side);
     hands_[i] = shoulders_[i] = hip_joints_[i] = {};
+    shoulders_aside_[i] = hip_joints_aside_[i] = {};
     if (feet_.by_joints(side)) {
       hip_joints_[i] = root_decay(skeleton_, side, leg(side), before_, shown_, now, after, seconds,
                                   lever_of(skeleton_, leg(side).root));
@@ -154,7 +157,79 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   }
 }
 
-const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
+void Playback::stitch(const WayUp& way) {
+  if (!started_) return;
+  stitch(way.clip[0], way.clip[1]);
+  for (const Side side : kSides) {
+    go_round(way, side, arm(side));
+    go_round(way, side, leg(side));
+  }
+}
+
+// How deep, m, a limb is in anything until the blend is over, in the sum of so many moments; not
+// counted on where that is more than `most`.
+float Playback::depth_on(const WayUp& way, const Limb& limb, float most) const {
+  constexpr int kMoments = 12;
+  Playback ahead = *this;
+  float depth = 0;
+  for (int i = 1; i < kMoments && depth <= most; ++i) {
+    ahead.step_blend(blend_seconds_ / kMoments);
+    const float seconds = blend_seconds_ * static_cast<float>(i) / kMoments;
+    const auto tick = static_cast<std::size_t>(seconds / kTickSeconds);
+    depth += way.depth(limb, ahead.blended(way.clip[std::min(tick, way.clip.size() - 1)]));
+  }
+  return depth;
+}
+
+// The largest acceleration, m/s2, of the limb's middle and end, over two frames of 60 Hz.
+float Playback::haste_on(const WayUp& way, const Limb& limb) const {
+  constexpr std::size_t kFrame = 2;  // ticks
+  constexpr float kSeconds = kFrame * kTickSeconds;
+  Playback ahead = *this;
+  std::vector<std::array<Vec3, 2>> path;
+  float most = 0;
+  for (const Pose& clip : way.clip) {
+    const WorldPose world = world_pose(skeleton_, ahead.blended(clip));
+    ahead.step_blend(kTickSeconds);
+    path.push_back({world.position[index(limb.middle)], world.position[index(limb.end)]});
+    if (path.size() <= 2 * kFrame) continue;
+    const auto now = path.end() - 1;
+    for (const std::size_t k : {0, 1}) {
+      const Vec3 turns = now[0][k] - 2.0f * (now - kFrame)[0][k] + (now - 2 * kFrame)[0][k];
+      most = std::max(most, glm::length(turns) / (kSeconds * kSeconds));
+    }
+  }
+  return most;
+}
+
+// By the shortest turn a limb may go through the floor or its own body: of the ways that leave that
+// turn to any side and come back, the one on which it is least deep, if that is worth going so far.
+void Playback::go_round(const WayUp& way, Side side, const Limb& limb) {
+  constexpr float kStep = radians(15);
+  constexpr int kMostSteps = 10;
+  constexpr float kWorth = .1f;     // m less deep, in depth_on, for each rad
+  constexpr float kMostHaste = 60;  // m/s2
+  const auto i = static_cast<std::size_t>(side);
+  Vec3& aside = is_leg(limb) ? hip_joints_aside_[i] : shoulders_aside_[i];
+  Vec3 best{};
+  float least = depth_on(way, limb, std::numeric_limits<float>::max());
+  for (int steps = 1; steps <= kMostSteps; ++steps) {
+    const float far = kStep * static_cast<float>(steps), costs = kWorth * far;
+    for (int k = 0; k < 27 && costs < least; ++k) {  // -1, 0 and 1 of each turn
+      const Vec3 turns(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+      if (turns == Vec3{}) continue;
+      aside = glm::normalize(turns) * far;
+      const float depth = depth_on(way, limb, least - costs) + costs;
+      if (depth >= least || haste_on(way, limb) > kMostHaste) continue;
+      least = depth;
+      best = aside;
+    }
+  }
+  aside = best;
+}
+
+// The clip with what is left of the difference to it; but feet and hands.
+Pose Playback::blended(const Pose& clip_pose) const {
   Pose pose = clip_pose;
   pose.hips += hips_.value();
   pose.rotation[0] = glm::normalize(turn_.of(clip_pose.rotation[0]));
@@ -164,11 +239,23 @@ const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
   }
   bend_hinges(clip_pose, pose);
   turn_roots(clip_pose, pose);
+  return pose;
+}
+
+void Playback::step_blend(float dt) {
+  hips_.step(dt);
+  turn_.step(dt);
+  for (Decay& decay : rotation_) decay.step(dt);
+  for (Decay& decay : hinges_) decay.step(dt);
+  for (Decay& decay : shoulders_) decay.step(dt);
+  for (Decay& decay : hip_joints_) decay.step(dt);
+}
+
+const Pose& Playback::next(const Pose& clip_pose, FootContacts contacts) {
+  Pose pose = blended(clip_pose);
   feet_.place(clip_pose, contacts, turn_.left(), pose);
   place_hands(clip_pose, pose);
-  hips_.step(kTickSeconds);
-  turn_.step(kTickSeconds);
-  for (Decay& decay : rotation_) decay.step(kTickSeconds);
+  step_blend(kTickSeconds);
   return show(pose);
 }
 
@@ -260,11 +347,11 @@ float Playback::bent_leg(const Limb& limb, const Free& free, float longer) const
 }
 
 // A knee or an elbow that carries its speed on may pass straight, or fold: it slows before.
-void Playback::bend_hinges(const Pose& clip_pose, Pose& pose) {
+void Playback::bend_hinges(const Pose& clip_pose, Pose& pose) const {
   for (const Side side : kSides) {
     for (const Limb& limb : {arm(side), leg(side)}) {
       const std::size_t j = index(limb.middle);
-      Decay& offset = hinges_[j];
+      const Decay& offset = hinges_[j];
       if (offset.done()) continue;
       const Vec3 axis = hinge_axis(limb);
       const float own = flexion(skeleton_, limb, clip_pose.rotation[j]);
@@ -279,26 +366,26 @@ void Playback::bend_hinges(const Pose& clip_pose, Pose& pose) {
       const Quat beside = from_rotation_vector(rotation_[j].value()) * glm::angleAxis(-own, axis) *
                           clip_pose.rotation[j];
       pose.rotation[j] = glm::normalize(glm::angleAxis(bent, axis) * beside);
-      offset.step(kTickSeconds);
     }
   }
 }
 
-void Playback::turn_roots(const Pose& clip_pose, Pose& pose) {
+void Playback::turn_roots(const Pose& clip_pose, Pose& pose) const {
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
-    for (Decay* offset : {&shoulders_[i], &hip_joints_[i]}) {
-      if (offset->done()) continue;
-      const bool shoulder = offset == &shoulders_[i];
+    for (const bool shoulder : {true, false}) {
+      const Decay& offset = shoulder ? shoulders_[i] : hip_joints_[i];
+      if (offset.done()) continue;
       const Limb limb = shoulder ? arm(side) : leg(side);
       const Vec3 own = root_turns(skeleton_, side, limb, clip_pose);
-      Vec3 turns = own + offset->value();
+      const float gone = 1 - offset.seconds_left() / blend_seconds_;
+      const float arc = std::sin(kPi * gone);
+      Vec3 turns =
+          own + offset.value() + (shoulder ? shoulders_aside_ : hip_joints_aside_)[i] * (arc * arc);
       if (shoulder) {
-        const float gone = 1 - offset->seconds_left() / blend_seconds_;
         turns = shoulder_slowed(ball_joint(limb), turns, own, seam_shoulder_[i], gone);
       }
       set_root_turns(skeleton_, side, limb, turns, pose);
-      offset->step(kTickSeconds);
     }
   }
 }

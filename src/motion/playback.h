@@ -8,6 +8,8 @@
 // feet do is in feet.h.
 
 #include <array>
+#include <functional>
+#include <span>
 
 #include "motion/clip.h"
 #include "motion/decay.h"
@@ -23,6 +25,14 @@ class Playback {
   // The next tick begins a new motion, of which `now` is shown next and `after` one tick later
   // (both placed in the world): the difference in pose and velocity will decay.
   void stitch(const Pose& now, const Pose& after);
+
+  // The same from where a body lies. Each limb goes to the clip by the way on which it is least
+  // in anything.
+  struct WayUp {
+    std::span<const Pose> clip;                            // from `now` on, a pose a tick
+    std::function<float(const Limb&, const Pose&)> depth;  // m: of a limb in floor and body
+  };
+  void stitch(const WayUp& way);
 
   // Shows one tick. `clip_pose`: the action's frame placed in the world for this body; `contacts`:
   // the clip's. Returns the shown pose in the world.
@@ -56,8 +66,13 @@ class Playback {
   bool arm_by_joints(Side side, const Pose& now) const;
   void stitch_hinge(const Limb& limb, const Pose& now, const Pose& after);
   float bent_leg(const Limb& limb, const Free& free, float longer) const;
-  void bend_hinges(const Pose& clip_pose, Pose& pose);
-  void turn_roots(const Pose& clip_pose, Pose& pose);
+  void bend_hinges(const Pose& clip_pose, Pose& pose) const;
+  void turn_roots(const Pose& clip_pose, Pose& pose) const;
+  Pose blended(const Pose& clip_pose) const;
+  void step_blend(float dt);
+  float depth_on(const WayUp& way, const Limb& limb, float most) const;
+  float haste_on(const WayUp& way, const Limb& limb) const;
+  void go_round(const WayUp& way, Side side, const Limb& limb);
   void place_hands(const Pose& clip_pose, Pose& pose);
   const Pose& show(const Pose& pose);
   void set_shown(const Pose& pose);
@@ -74,10 +89,11 @@ class Playback {
   std::array<Decay, kJointCount> hinges_;          // x: of elbows' flexion, rad; of legs' reach, m
   std::array<float, kJointCount> seam_flexion_{};  // rad: the same at the seam
   Decay hips_;
-  std::array<Decay, 2> hands_;            // of the wrists' world positions
-  std::array<Decay, 2> shoulders_;        // of arms that go by their joints instead
-  std::array<Vec3, 2> seam_shoulder_{};   // rad: how those were turned at the seam
-  std::array<Decay, 2> hip_joints_;       // of the lines of legs that do
+  std::array<Decay, 2> hands_;           // of the wrists' world positions
+  std::array<Decay, 2> shoulders_;       // of arms that go by their joints instead
+  std::array<Vec3, 2> seam_shoulder_{};  // rad: how those were turned at the seam
+  std::array<Decay, 2> hip_joints_;      // of the lines of legs that do
+  std::array<Vec3, 2> shoulders_aside_{}, hip_joints_aside_{};  // rad: of both, half-way
   std::array<float, 2> arm_reach_{0, 0};  // at the seam, as a share of its length
   Feet feet_;
 };

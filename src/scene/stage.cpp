@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "motion/ik.h"
+#include "physics/limb_room.h"
 #include "physics/penetration.h"
 #include "planner/condition.h"
 #include "scene/answer.h"
@@ -88,10 +89,21 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   if (playback.started() && !actor.motion.simulated) actor.free = limit_excesses(playback.shown());
   actor.motion.gives = {};
   actor.motion.landed = {};
-  if (actor.simulated.empty()) {
-    actor.motion.playback.stitch(clip_pose(actor, launch.start + 1),
-                                 clip_pose(actor, launch.start + 2));
+  if (actor.simulated.empty()) stitch(actor, launch.start + 1, actor.motion.playback);
+}
+
+// To the clip, of which `tick` is shown next.
+void Stage::stitch(const Actor& actor, Tick tick, Playback& playback) const {
+  if (library_.action(actor.launch.action).starts_lying == Lying::none || !playback.started()) {
+    playback.stitch(clip_pose(actor, tick), clip_pose(actor, tick + 1));
+    return;
   }
+  std::vector<Pose> clip;
+  const Tick end = tick + ticks(PlaybackSettings{}.longest_blend);
+  for (Tick t = tick; t <= end; ++t) clip.push_back(clip_pose(actor, t));
+  const LimbRoom room(actor.body, {playback.shown(), clip.front(), clip.back()});
+  playback.stitch(
+      {clip, [&](const Limb& limb, const Pose& pose) { return room.lacks(limb, pose); }});
 }
 
 void Stage::drive_back(FighterId fighter, Part part, Vec3 velocity) {
@@ -180,7 +192,7 @@ bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
     motion.playback.next_simulated(actor.simulated[at]);
   } else {
     const Pose pose = clip_pose(actor, tick);
-    if (seam) motion.playback.stitch(pose, clip_pose(actor, tick + 1));
+    if (seam) stitch(actor, tick, motion.playback);
     motion.playback.next(pose, clip.contacts_at(actor.launch.clip_age(tick)));
     relieve_feet(pose, motion.playback);
   }

@@ -105,6 +105,7 @@ class Stage {
     FighterTrack track{};
   };
 
+  void stitch(const Actor& actor, Tick tick, Playback& playback) const;
   void free_joints(Actor& actor, Tick tick) const;
   bool go_on(const Actor& actor, Tick tick, Motion& motion) const;
   static void relieve_feet(const Pose& clip, Playback& playback);

@@ -253,6 +253,45 @@ TEST(SingleHit, NoLimbTurnsOverWhereAGetUpBegins) {
   }
 }
 
+// Of a get-up, how deep, m, any part but gloves and feet is in the floor where it is worst.
+float deepest_in_floor(const GetUp& up) {
+  const BodyModel& body = up.answer.bodies.front();
+  const FighterTrack& track = up.answer.timeline.tracks.front();
+  float deepest = 0;
+  for (std::size_t t = up.begin; t < track.frames.size(); ++t) {
+    const BodyCapsules c = capsules(body, world_pose(body.skeleton, up.shown(t)));
+    for (std::size_t i = 0; i < kPartCount; ++i) {
+      const Part part = part_at(i);
+      if (part == Part::left_hand || part == Part::right_hand) continue;
+      if (part == Part::left_foot || part == Part::right_foot) continue;
+      deepest = std::max(deepest, c[i].radius - std::min(c[i].a.y, c[i].b.y));
+    }
+  }
+  return deepest;
+}
+
+// By the shortest turn, knees and elbows that lie on the wrong side of their body would go 7 to 21
+// cm through the floor.
+TEST(SingleHit, NoLimbGoesThroughTheFloorWhereAGetUpBegins) {
+  struct Fall {
+    double at_s;
+    Vec3 impulse;
+  };
+  for (const Fall& fall : {Fall{.3, {30, 40, -150}},
+                           {.1, {40, 0, -170}},
+                           {.3, {80, 0, -150}},
+                           {.3, {-60, 0, -160}},
+                           {.9, {128, -2, 41}}}) {
+    HitQuery hit = query("idle_guard_bounce", fall.at_s);
+    hit.part = Part::chest;
+    hit.impulse = fall.impulse;
+    const GetUp up = get_up_after(hit);
+    ASSERT_GT(up.begin, 0u);
+    EXPECT_LT(deepest_in_floor(up), .04f) << fall.at_s << " s, " << fall.impulse.x << " N s";
+    EXPECT_LT(jump_into_get_up(up.answer), 1.5f);
+  }
+}
+
 class PlacedStrikeTest : public ::testing::TestWithParam<Placed> {};
 
 TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
