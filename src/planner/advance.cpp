@@ -26,6 +26,11 @@ Tick next_multiple(Tick tick, Tick every) {
   return (tick / every + 1) * every;
 }
 
+// Of a move under which bodies are so deep, m, at the first tick that is too deep: in mm.
+std::int32_t fault_of(float depth) {
+  return 1 + static_cast<std::int32_t>(depth * 1000);
+}
+
 }  // namespace
 
 void Duel::find_windows(const Node& node, Tick end) {
@@ -252,13 +257,15 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
       }
       const bool down = !setup_->settings.hits_on_downed &&
                         node.side[static_cast<std::size_t>(1 - i)].balance == 2;
-      credit(node, i, kSpan * location_rate(side(i).weights, distance, cosine, to_ropes, down),
+      credit(node, i,
+             kSpan * location_rate(side(i).weights, distance, cosine, to_ropes, down,
+                                   overlap(setup_->fallen, own.x, own.z)),
              Term::location);
     }
   }
 }
 
-std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tick to) {
+std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tick to) const {
   const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
   const InFlight& self = node.side[static_cast<std::size_t>(mover)].flight;
@@ -266,15 +273,32 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
   const auto least = static_cast<float>(prune.penetration_m);
   const Tick every = std::max<Tick>(1, prune.penetration_every);
   for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-    float deepest = penetration_at(self, other, tick, least);
-    for (const Bystander& one : setup_->others) {
-      deepest = std::max(deepest, penetration_at(self, one.flight, tick, least));
-    }
-    if (deepest <= 0) continue;
-    ++counts_.penetration;
-    return 1 + static_cast<std::int32_t>(deepest * 1000);  // mm, at the first tick that is too deep
+    const float depth = penetration_at(self, other, tick, least);
+    if (depth > 0) return fault_of(depth);
   }
   return 0;
+}
+
+// A launch is looked at as a whole, as far as the others' are known: its edge ends where the
+// opponent acts, and whoever moves then is not to blame for where it leads. Who is in a body
+// already may come out of it.
+std::int32_t Duel::bystander_fault(const InFlight& mover) const {
+  const CostSpan span(setup_->cost, CostPart::penetration);
+  const PruneSettings& prune = setup_->settings.prune;
+  const Tick from = mover.launch.start, every = std::max<Tick>(1, prune.penetration_every);
+  std::int32_t fault = 0;
+  for (const Bystander& one : setup_->others) {
+    const auto least = static_cast<float>(prune.penetration_m);
+    const float most = std::max(least, penetration_at(mover, one.flight, from, least));
+    const Tick to = std::min(mover.launch.end, one.flight.launch.end);
+    for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
+      const float depth = penetration_at(mover, one.flight, tick, most);
+      if (depth <= 0) continue;
+      fault = std::max(fault, fault_of(depth));
+      break;
+    }
+  }
+  return fault;
 }
 
 void Duel::play_on(Node& node) {

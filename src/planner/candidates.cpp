@@ -105,6 +105,7 @@ struct Duel::Aspect {
   double ropes_half = 0;  // m from the middle to the ropes
   float held_at = 0;      // m from the middle: the ropes let no root go farther, or farther out
   std::vector<Threat> threats;
+  std::span<const Fallen> fallen;
 
   Vec3 opponent_at(Tick tick) const {
     if (tick >= opponent_still) return opponent_then;
@@ -163,11 +164,16 @@ void Duel::Aspect::add_protection(std::span<const NextAction> next,
 }
 
 std::array<double, kLanes> Duel::Aspect::rates(const BearingLanes& bearing) const {
-  std::array<double, kLanes> rates;
+  std::array<double, kLanes> rates, in_fallen{};
+  if (!fallen.empty()) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      in_fallen[i] = overlap(fallen, bearing.x[i], bearing.z[i]);
+    }
+  }
   for (std::size_t i = 0; i < kLanes; ++i) {
     const float out = farther_out(bearing.x[i], bearing.z[i]);
     rates[i] = location_rate(own->weights, bearing.apart[i], bearing.facing[i],
-                             ropes_half - static_cast<double>(out), opponent_down);
+                             ropes_half - static_cast<double>(out), opponent_down, in_fallen[i]);
   }
   return rates;
 }
@@ -240,8 +246,9 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   const float distance = std::sqrt(toward.x * toward.x + toward.z * toward.z);
   const float cosine = distance > 1e-4f ? toward.z / distance : 1.0f;
   const double to_ropes = aspect.ropes_half - static_cast<double>(farther_out(at_now.x, at_now.z));
-  aspect.rate_now =
-      location_rate(aspect.own->weights, distance, cosine, to_ropes, aspect.opponent_down);
+  aspect.fallen = setup_->fallen;
+  aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, to_ropes,
+                                  aspect.opponent_down, overlap(aspect.fallen, at_now.x, at_now.z));
 
   const SideSetup& their = side(1 - who);
   const Launch& launch = other.flight.launch;

@@ -141,9 +141,9 @@ ValueRange Duel::range(const Node& node) const {
       return {};
     }
     const int launches = flight.launch.end < horizon_ ? 1 : 0;
-    const double low =
-        static_cast<double>(samples) * (kSpan * least_location_rate(own.weights) - kRounding) +
-        launches * (launches_[i].least - 2 * kRounding);
+    const double rate = least_location_rate(own.weights, setup_->fallen.size());
+    const double low = static_cast<double>(samples) * (kSpan * rate - kRounding) +
+                       launches * (launches_[i].least - 2 * kRounding);
     const double high = launches * (launches_[i].most + kRounding);
     const double factor = setup_->factors.rest[i];
     least += std::min(factor * low, factor * high);
@@ -242,7 +242,13 @@ Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
 
 void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
   if (move.forced || !setup_->settings.prune.penetration) return;
-  child.fault += penetration_fault(child.node, move.side, child.node.checked, child.node.now);
+  const InFlight& self = child.node.side[move.side].flight;
+  std::int32_t deep = child.node.checked == self.launch.start ? bystander_fault(self) : 0;
+  if (deep == 0) {
+    deep = penetration_fault(child.node, move.side, child.node.checked, child.node.now);
+  }
+  if (deep > 0) ++counts_.penetration;
+  child.fault += deep;
   child.node.checked = child.node.now;
 }
 

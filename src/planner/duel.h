@@ -11,6 +11,7 @@
 
 #include "planner/bearings.h"
 #include "planner/evaluation.h"
+#include "planner/fallen.h"
 #include "planner/habits.h"
 #include "planner/impact_memo.h"
 #include "planner/plan.h"
@@ -92,6 +93,7 @@ struct DuelSetup {
   PlanSettings settings;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
+  std::vector<Fallen> fallen;  // those of them that lie, or will when their fall is over
   SearchCost* cost = nullptr;  // where the time went, for one thread; null: nobody asks
 };
 
@@ -207,7 +209,9 @@ class Duel {
   void land(Node& node, const Met& met, const Move& move, std::int32_t& fault);
   void judge_evasions(Node& node, Tick from, Tick to);
   void add_location(Node& node, Tick from, Tick to) const;
-  std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to);
+  std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to) const;
+  // The same of a launch against those outside the duel.
+  std::int32_t bystander_fault(const InFlight& mover) const;
   bool may_strike(const InFlight& flight, Tick after) const;
   // The largest share, 0..1, to which a strike of `next`, chosen now, reaches the opponent where
   // that goes by itself.

@@ -37,8 +37,9 @@ Weights weights_at(const Style& style, double quiet, double apart, double scale)
   return w;
 }
 
-double least_location_rate(const Weights& weights) {
-  const double farthest = weights.least - kOverlapCost * kOverlapDistance;
+double least_location_rate(const Weights& weights, std::size_t fallen) {
+  const double bodies = 1 + static_cast<double>(fallen);
+  const double farthest = weights.least - kOverlapCost * kOverlapDistance * bodies;
   return weights.location * farthest - weights.facing * 2 - weights.ropes;
 }
 

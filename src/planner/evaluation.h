@@ -46,18 +46,19 @@ inline constexpr float kInsideRopes = 0.2f;      // m: from the ropes to a root,
 
 // F_loc as a rate, points/s: `distance` of the roots (m), `cosine` of the opponent's bearing off
 // the own facing, `to_ropes` from the own root to the nearest ropes (m), `down` where the opponent
-// has fallen, may not be struck and needs room to rise in.
+// has fallen, may not be struck and needs room to rise in; `in_fallen` of kOverlapDistance, how
+// much the own root lacks of it to others who lie, m.
 inline double location_rate(const Weights& weights, double distance, double cosine, double to_ropes,
-                            bool down = false) {
+                            bool down = false, double in_fallen = 0) {
   const double wanted = weights.distance + (down ? kLyingReach : 0.0);
   double in_reach = std::max(weights.least, -std::abs(distance - wanted) / weights.sigma);
-  in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance);
+  in_reach -= kOverlapCost * (std::max(0.0, kOverlapDistance - distance) + in_fallen);
   const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
 }
 
-// The least that it can be; it is never above 0.
-double least_location_rate(const Weights& weights);
+// The least that it can be where so many others lie; it is never above 0.
+double least_location_rate(const Weights& weights, std::size_t fallen = 0);
 
 // F_control of a launch, points (mostly a cost): `use` is phi, the action's share of recent
 // launches. Without reach_bonus.

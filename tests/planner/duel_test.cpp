@@ -13,7 +13,22 @@
 namespace ringcraft {
 namespace {
 
-class DuelTest : public DuelFixture {};
+class DuelTest : public DuelFixture {
+ protected:
+  // A third fighter that is knocked out, on its back long since.
+  static Bystander lying(const Placement& placement) {
+    Launch fall = launch("knockdown_back", -400, placement);
+    fall.end = kNever;
+    return {InFlight(tables(), fall), FighterId(2), 0};
+  }
+  void set_fallen(bool any) {
+    setup_.others.clear();
+    setup_.fallen.clear();
+    if (!any) return;
+    setup_.others.push_back(lying({0.3f, -0.3f, 0.9f}));
+    setup_.fallen.emplace_back(setup_.others.back().flight);
+  }
+};
 
 BodyCapsules in_world(const InFlight& flight, Tick tick) {
   const Frame frame = flight.frame_at(tick);
@@ -94,6 +109,7 @@ TEST_F(DuelTest, AKeptTreeIsWhatASearchOfTheLongerHorizonWalksAnew) {
   SearchSettings settings;  // nothing that orders moves by what was seen at a shorter horizon
   settings.table = settings.killers = settings.history = false;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    set_fallen(seed % 2 == 0);
     const DuelNode root = Duel::root(setup_, random_state(seed));
     Search<Duel> kept(settings);
     for (Tick horizon = 30; horizon <= 150; horizon += 20) {
@@ -160,6 +176,7 @@ TEST_F(DuelTest, EveryValueLiesInItsRange) {
       for (std::int32_t& points : side.launch) points = random.below(4000) - 3000;
     }
     setup_.settings.ring_half_m = 1;
+    set_fallen(seed % 3 == 0);
     const Tick horizon = 20 + random.below(60);
     Duel game(setup_, horizon);
     DuelNode node = Duel::root(setup_, random_state(seed));
@@ -736,6 +753,28 @@ TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   Duel unpruned(setup_, 240);
   node = unpruned.apply(root, choice(root, 0, "step_fore")).node;
   EXPECT_EQ(unpruned.apply(node, choice(node, 1, "step_fore")).fault, 0);
+}
+
+// The edge ends where the opponent acts, which has nothing to do with what is in the way.
+TEST_F(DuelTest, WalkingIntoWhoLiesIsPrunedWhereverTheEdgeEnds) {
+  setup_.others.push_back(lying({0, -1, kPi}));  // right ahead of fighter 0
+  for (const Tick lag : {0, 1, 30, 60}) {
+    Duel game(setup_, 240);
+    const DuelNode root = Duel::root(setup_, facing(2.4f, lag));
+    EXPECT_GT(game.apply(root, choice(root, 0, "step_fore")).fault, 0) << lag;
+    EXPECT_EQ(game.counts().penetration, 1u) << lag;
+    EXPECT_EQ(game.apply(root, choice(root, 0, "step_back")).fault, 0) << lag;
+  }
+}
+
+TEST_F(DuelTest, WhoStandsInWhoLiesMayComeOutButNotGoDeeper) {
+  setup_.others.push_back(lying({0, -1.4f, kPi}));
+  Duel game(setup_, 240);
+  const DuelNode root = Duel::root(setup_, facing(2.4f, 30));
+  const InFlight& self = root.side[0].flight;
+  ASSERT_GT(penetration_at(self, setup_.others[0].flight, 0), setup_.settings.prune.penetration_m);
+  EXPECT_EQ(game.apply(root, choice(root, 0, "step_back")).fault, 0);
+  EXPECT_GT(game.apply(root, choice(root, 0, "step_fore")).fault, 0);
 }
 
 TEST_F(DuelTest, TakingASeenBlowWithoutDefendingIsPruned) {

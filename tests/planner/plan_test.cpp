@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include <set>
+#include <string>
 
 #include "planner/duel_fixture.h"
 #include "planner/soft_choice.h"
@@ -391,6 +393,48 @@ TEST_F(PlanTest, ThirdFightersBlowIsAThreat) {
   state.fighters[2].launch.placement = {0.93f, 2.5f, -kPi / 2};
   const Plan safe = planner.plan(state, FighterId(0), 0);
   EXPECT_LT(threatened.record.lines[0].score, safe.record.lines[0].score);
+}
+
+TEST_F(PlanTest, WhoLiesInTheWayIsNotWalkedInto) {
+  FightState state = facing(2.4f, 1);
+  FighterState third = state.fighters[1];
+  third.launch = launch("knockdown_back", -400, {0, -1, kPi});
+  third.launch.end = kNever;
+  third.balance = 2;
+  state.fighters.push_back(third);
+  Style style = quick();
+  style.candidates = 40;
+  Planner planner(library(), contenders(3, style), {}, 3);
+  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const auto& struck = plan.record.struck_off;
+  const auto step = std::find_if(struck.begin(), struck.end(),
+                                 [](const StruckOff& one) { return one.action == "step_fore"; });
+  ASSERT_NE(step, struck.end());
+  EXPECT_EQ(step->rules, std::vector<std::string>{"penetration"});
+}
+
+TEST_F(PlanTest, ToStandWhereAnotherLiesCosts) {
+  FightState state = facing(0.95f);
+  FighterState third = state.fighters[1];
+  third.launch = launch("knockdown_back", -400, {3, 0, 0});
+  third.launch.end = kNever;
+  third.balance = 2;
+  state.fighters.push_back(third);
+  Style style = quick();
+  style.temperature = 0;
+  style.candidates = 40;
+  PlanSettings settings;
+  settings.prune.penetration = false;
+  Planner planner(library(), contenders(3, style), settings, 3);
+  const Plan beside = planner.plan(state, FighterId(0), 0);
+  state.fighters[2].launch.placement = {0.8f, -0.48f, kPi / 2};  // across where fighter 0 stands
+  const Plan astride = planner.plan(state, FighterId(0), 0);
+  EXPECT_LT(astride.record.lines[0].score, beside.record.lines[0].score - 500);
+  state.fighters[2].launch =
+      launch("idle", 0, {0.8f, -0.48f, kPi / 2});  // who stands is no such thing
+  state.fighters[2].balance = 0;
+  EXPECT_EQ(planner.plan(state, FighterId(0), 0).record.lines[0].score,
+            beside.record.lines[0].score);
 }
 
 TEST_F(PlanTest, ChiefOpponentIsTheNearestWhereNoneIsNamed) {

@@ -130,6 +130,60 @@ TEST(Fall, WhoFightsSeveralTurnsToThoseThatStand) {
   EXPECT_GT(turned, 0);
 }
 
+// From above: whether the line from one foot to the other crosses the trunk or a leg of `lies`.
+bool astride(const BodyCapsules& stands, const BodyCapsules& lies) {
+  const auto side = [](Vec3 a, Vec3 b, Vec3 p) {
+    return (b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x);
+  };
+  const Vec3 left = stands[index(Part::left_foot)].a, right = stands[index(Part::right_foot)].a;
+  for (const Part part : {Part::pelvis, Part::abdomen, Part::chest, Part::head, Part::left_thigh,
+                          Part::right_thigh, Part::left_shin, Part::right_shin}) {
+    const Capsule& c = lies[index(part)];
+    if (side(left, right, c.a) * side(left, right, c.b) < 0 &&
+        side(c.a, c.b, left) * side(c.a, c.b, right) < 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Two of six are out at the first blow, and the others fight on where they lie.
+TEST(Fall, WhoFightsOnDoesNotStandAstrideWhoLies) {
+  Tick lain = 0, stood_astride = 0;
+  for (const std::uint64_t seed : {1, 6, 8}) {
+    SceneFile scene = crowd(seed, 1.1f);
+    scene.duration = 15 * kTicksPerSecond;
+    scene.ring = 5;
+    for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
+      scene.fighters[i].team = static_cast<int>(i);
+      if (i % 3 != 0) scene.fighters[i].health = 100'000;
+    }
+    const FightRecord record = simulate_fight(default_library(), scene);
+    const auto& tracks = record.timeline.tracks;
+    const auto shown = [&](std::size_t i, std::size_t tick) {
+      return capsules(record.bodies[i],
+                      world_pose(record.bodies[i].skeleton, tracks[i].frames[tick]));
+    };
+    const auto down_since = [&](std::size_t i) {
+      const Launch& last = tracks[i].segments.back().launch;
+      const bool fell = default_library().action(last.action).ends_lying != Lying::none;
+      return fell ? last.start : kNever;
+    };
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      for (Tick tick = down_since(i) + 2 * kTicksPerSecond; tick < record.timeline.end; ++tick) {
+        const BodyCapsules lies = shown(i, static_cast<std::size_t>(tick));
+        ++lain;
+        for (std::size_t j = 0; j < tracks.size(); ++j) {
+          if (down_since(j) <= tick) continue;
+          stood_astride += astride(shown(j, static_cast<std::size_t>(tick)), lies) ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(lain, 10 * kTicksPerSecond);
+  EXPECT_LT(stood_astride, lain / 50);
+}
+
 TEST(Fall, NobodyIsHitByAFallThatIsOutOfReach) {
   int falls = 0;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
