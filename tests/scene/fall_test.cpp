@@ -184,6 +184,26 @@ TEST(Fall, WhoFightsOnDoesNotStandAstrideWhoLies) {
   EXPECT_LT(stood_astride, lain / 50);
 }
 
+// Gloves end a hand's length beyond the wrist, and so does what props a body up.
+TEST(Fall, WhoGetsUpPropsItselfUpOnTheFloor) {
+  const BodyModel body = make_body({});
+  int get_ups = 0;
+  for (const Action& action : default_library().actions()) {
+    if (action.kind != Kind::get_up) continue;
+    ++get_ups;
+    float lowest = 1;
+    for (Tick tick = 0; tick <= action.clip.length(); ++tick) {
+      const BodyCapsules c = capsules(body, world_pose(body.skeleton, action.clip.at(tick)));
+      for (const Part part : {Part::left_hand, Part::right_hand}) {
+        const Capsule& glove = c[index(part)];
+        lowest = std::min(lowest, std::min(glove.a.y, glove.b.y) - glove.radius);
+      }
+    }
+    EXPECT_GT(lowest, -.035f) << action.name;
+  }
+  EXPECT_GT(get_ups, 3);
+}
+
 TEST(Fall, NobodyIsHitByAFallThatIsOutOfReach) {
   int falls = 0;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
