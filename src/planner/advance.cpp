@@ -273,22 +273,25 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
   const auto least = static_cast<float>(prune.penetration_m);
   const Tick every = std::max<Tick>(1, prune.penetration_every);
   for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-    const float depth = penetration_at(self, other, tick, least);
-    if (depth > 0) return fault_of(depth);
+    float deepest = penetration_at(self, other, tick, least);
+    for (const Bystander& one : setup_->others) {
+      if (!one.lies()) deepest = std::max(deepest, penetration_at(self, one.flight, tick, least));
+    }
+    if (deepest > 0) return fault_of(deepest);
   }
   return 0;
 }
 
-// A launch is looked at as a whole, as far as the others' are known: its edge ends where the
-// opponent acts, and whoever moves then is not to blame for where it leads. Who is in a body
-// already may come out of it.
-std::int32_t Duel::bystander_fault(const InFlight& mover) const {
+// A launch is looked at as a whole: its edge ends where the opponent acts, and whoever moves then
+// is not to blame for where it leads. Who is in a body already may come out of it.
+std::int32_t Duel::fallen_fault(const InFlight& mover) const {
   const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
   const Tick from = mover.launch.start, every = std::max<Tick>(1, prune.penetration_every);
+  const auto least = static_cast<float>(prune.penetration_m);
   std::int32_t fault = 0;
   for (const Bystander& one : setup_->others) {
-    const auto least = static_cast<float>(prune.penetration_m);
+    if (!one.lies()) continue;
     const float most = std::max(least, penetration_at(mover, one.flight, from, least));
     const Tick to = std::min(mover.launch.end, one.flight.launch.end);
     for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {

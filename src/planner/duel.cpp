@@ -243,7 +243,7 @@ Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
 void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
   if (move.forced || !setup_->settings.prune.penetration) return;
   const InFlight& self = child.node.side[move.side].flight;
-  std::int32_t deep = child.node.checked == self.launch.start ? bystander_fault(self) : 0;
+  std::int32_t deep = child.node.checked == self.launch.start ? fallen_fault(self) : 0;
   if (deep == 0) {
     deep = penetration_fault(child.node, move.side, child.node.checked, child.node.now);
   }

@@ -60,6 +60,8 @@ struct Bystander {
   InFlight flight;
   FighterId id;
   int body = 0;  // index into the memo's tables
+
+  bool lies() const { return flight.table->action->ends_lying != Lying::none; }  // or falls
 };
 
 // What a search needs to know of one side. Constant inside a search.
@@ -210,8 +212,8 @@ class Duel {
   void judge_evasions(Node& node, Tick from, Tick to);
   void add_location(Node& node, Tick from, Tick to) const;
   std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to) const;
-  // The same of a launch against those outside the duel.
-  std::int32_t bystander_fault(const InFlight& mover) const;
+  // The same of a launch against those outside the duel who lie.
+  std::int32_t fallen_fault(const InFlight& mover) const;
   bool may_strike(const InFlight& flight, Tick after) const;
   // The largest share, 0..1, to which a strike of `next`, chosen now, reaches the opponent where
   // that goes by itself.

@@ -282,7 +282,7 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
     one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
     if (const ActionTable* table = in_flight(one.id, one.flight.launch)) one.flight.table = table;
     setup.others.push_back(one);
-    if (one.flight.table->action->ends_lying != Lying::none) setup.fallen.emplace_back(one.flight);
+    if (one.lies()) setup.fallen.emplace_back(one.flight);
   }
   return setup;
 }

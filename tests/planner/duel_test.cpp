@@ -755,6 +755,17 @@ TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   EXPECT_EQ(unpruned.apply(node, choice(node, 1, "step_fore")).fault, 0);
 }
 
+// Where it goes once its action is over nobody knows; until then it stands where that ends.
+TEST_F(DuelTest, WalkingIntoAThirdFighterIsPrunedAlsoWhenItsActionIsOver) {
+  setup_.others.push_back(
+      {InFlight(tables(), launch("idle", -33, {0, -0.42f, kPi})), FighterId(2), 0});
+  Duel game(setup_, 240);
+  const DuelNode root = Duel::root(setup_, facing(2.4f, 60));
+  ASSERT_LT(setup_.others[0].flight.launch.end, 10);
+  EXPECT_GT(game.apply(root, choice(root, 0, "step_fore")).fault, 0);
+  EXPECT_EQ(game.apply(root, choice(root, 0, "step_back")).fault, 0);
+}
+
 // The edge ends where the opponent acts, which has nothing to do with what is in the way.
 TEST_F(DuelTest, WalkingIntoWhoLiesIsPrunedWhereverTheEdgeEnds) {
   setup_.others.push_back(lying({0, -1, kPi}));  // right ahead of fighter 0
