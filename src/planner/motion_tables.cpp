@@ -511,10 +511,23 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
                        after);
   const std::uint32_t near = parts_near(limb.parts(), struck, age);
   if (near == 0) return std::nullopt;
-  return strike_contact(limb.parts(),
-                        {struck.capsules_at(age - 1), struck.capsules_at(age),
-                         guarding_parts(*struck.action, struck.clip_age(age))},
-                        near);
+  const std::uint32_t guards = guarding_parts(*struck.action, struck.clip_age(age));
+  if (!target.turning(tick - 1)) {
+    return strike_contact(limb.parts(),
+                          {struck.capsules_at(age - 1), struck.capsules_at(age), guards}, near);
+  }
+  // Seen from where the target is now, as it has turned: in its own space parts that are apart, as
+  // a glove and the middle of a head, would have other speeds.
+  const Frame turned = relative(target.frame_at(tick), target.frame_at(tick - 1));
+  BodyCapsules was = struck.capsules_at(age - 1);
+  for (Capsule& capsule : was) {
+    capsule.a = turned.to_outer(capsule.a);
+    capsule.b = turned.to_outer(capsule.b);
+  }
+  const SweptLimb seen(strike.parts, own.capsules_at(own_age - 1),
+                       relative(target.frame_at(tick), attacker.frame_at(tick - 1)),
+                       own.capsules_at(own_age), after);
+  return strike_contact(seen.parts(), {was, struck.capsules_at(age), guards}, near);
 }
 
 namespace {

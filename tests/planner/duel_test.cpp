@@ -76,13 +76,20 @@ TEST_F(DuelTest, PenetrationAgreesWithThatOfTheWorld) {
 
 TEST_F(DuelTest, ContactsAgreeWithThoseOfTheWorld) {
   Random random(9);
-  int met = 0;
+  int met = 0, turned = 0;
   for (int run = 0; run < 200; ++run) {
     const char* names[] = {"jab", "cross", "hook", "body_cross", "front_kick"};
-    const InFlight attacker(tables(), launch(names[random.below(5)], 0, {}));
-    const InFlight target(
-        tables(),
-        launch("step_back", 0, {random.uniform(-0.2f, 0.2f), random.uniform(0.7f, 1.2f), kPi}));
+    Launch blow = launch(names[random.below(5)], 0, {});
+    Launch steps =
+        launch("step_back", 0, {random.uniform(-0.2f, 0.2f), random.uniform(0.7f, 1.2f), kPi});
+    if (run % 2 == 1) {  // both turn as they go, the target while it is met
+      blow.aim = random.uniform(-0.5f, 0.5f);
+      steps.aim = random.uniform(-0.5f, 0.5f);
+      const Tick begins = library().action(blow.action).strikes[0].active_begin;
+      steps.end += begins - steps.start;
+      steps.start = begins;
+    }
+    const InFlight attacker(tables(), blow), target(tables(), steps);
     const StrikeTable& strike = attacker.table->strikes[0];
     for (Tick tick = strike.strike.active_begin; tick < strike.strike.active_end; ++tick) {
       SweptBody a, b;
@@ -95,10 +102,14 @@ TEST_F(DuelTest, ContactsAgreeWithThoseOfTheWorld) {
       ++met;
       EXPECT_TRUE(may_reach(attacker, strike, target));
       EXPECT_EQ(truth->struck, mine->struck);
-      EXPECT_LT(glm::distance(truth->point, target.frame_at(tick).to_outer(mine->point)), 1e-3f);
+      const Frame seen = target.frame_at(tick);
+      EXPECT_LT(glm::distance(truth->point, seen.to_outer(mine->point)), 1e-3f);
+      EXPECT_LT(glm::distance(truth->velocity, yaw_rotation(seen.yaw) * mine->velocity), 1e-2f);
+      turned += target.turning(tick - 1) ? 1 : 0;
     }
   }
   EXPECT_GT(met, 50);
+  EXPECT_GT(turned, 10);
 }
 
 TEST_F(DuelTest, AKeptTreeIsWhatASearchOfTheLongerHorizonWalksAnew) {
