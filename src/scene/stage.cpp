@@ -84,9 +84,11 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
     last.end = std::min(last.end, launch.start);
   }
   actor.track.segments.push_back({launch, action.name, action.kind, action.feint.has_value()});
-  actor.seam = true;
+  actor.motion.seam = true;
   const Playback& playback = actor.motion.playback;
-  if (playback.started() && !actor.motion.simulated) actor.free = limit_excesses(playback.shown());
+  if (playback.started() && !actor.motion.simulated) {
+    actor.motion.free = limit_excesses(playback.shown());
+  }
   actor.motion.gives = {};
   actor.motion.landed = {};
   if (actor.simulated.empty()) stitch(actor, launch.start + 1, actor.motion.playback);
@@ -202,62 +204,72 @@ bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
   return seam;
 }
 
+void Stage::next(const Actor& actor, Tick tick, Motion& motion) const {
+  // What is shown is where a new motion starts from.
+  if (go_on(actor, tick, motion) || motion.seam) motion.kept_out = {};
+  free_joints(actor, tick, motion);
+  motion.playback.amend(
+      in_range(actor.body, motion, with_offsets(actor.body, motion.unhindered, motion.kept_out)));
+}
+
 void Stage::show(Tick tick) {
   for (Actor& actor : actors_) {
-    // What is shown is where a new motion starts from.
-    if (go_on(actor, tick, actor.motion) || actor.seam) actor.kept_out = {};
-    free_joints(actor, tick);
+    next(actor, tick, actor.motion);
     actor.swept.before = actor.swept.after;
     actor.swept.guards =
         guarding_parts(library_.action(actor.launch.action), actor.launch.clip_age(tick));
-    amend(actor, actor.kept_out);
+    actor.swept.after = shown_capsules(actor);
+    actor.recorded = false;
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }
 }
 
 // How far each joint may go in this tick before it slows: as far as its clip does, from a seam on
 // as far as it was shown there. Legs bear the body: theirs do not slow while they stand.
-void Stage::free_joints(Actor& actor, Tick tick) const {
+void Stage::free_joints(const Actor& actor, Tick tick, Motion& motion) const {
   const LimitExcesses clip = limit_excesses(clip_pose(actor, tick));
-  const Playback& playback = actor.motion.playback;
-  const bool seam = actor.motion.simulated || actor.seam;
-  if (actor.motion.simulated) actor.free = limit_excesses(playback.shown());
-  actor.seam = false;
-  const FootContacts held = playback.held();
+  const bool seam = motion.simulated || motion.seam;
+  if (motion.simulated) motion.free = limit_excesses(motion.playback.shown());
+  motion.seam = false;
+  const FootContacts held = motion.playback.held();
   for (const Side side : {Side::left, Side::right}) {
-    float& share = actor.swings[static_cast<std::size_t>(side)];
+    float& share = motion.swings[static_cast<std::size_t>(side)];
     share = std::clamp(share + (held.of(side) ? -kLegSlowsBy : kLegSlowsBy), 0.0f, 1.0f);
   }
   for (std::size_t i = 0; i < kLimitCount; ++i) {
     const auto leg = leg_of_limit(i);
-    const float slows = leg ? actor.swings[static_cast<std::size_t>(*leg)] : 1.0f;
+    const float slows = leg ? motion.swings[static_cast<std::size_t>(*leg)] : 1.0f;
     const float own = glm::mix(kLimitTolerance, std::max(kSlowsFrom, clip[i]), slows);
-    float& more = actor.free_more[i];
-    if (seam) more = std::max(kSlowsFrom, actor.free[i]) - own;
+    float& more = motion.free_more[i];
+    if (seam) more = std::max(kSlowsFrom, motion.free[i]) - own;
     more -= std::clamp(more, -kSlowsBy, kSlowsBy);
-    actor.free[i] = own + more;
+    motion.free[i] = own + more;
   }
 }
 
-Pose Stage::in_range(const Actor& actor, const Pose& pose) {
+Pose Stage::in_range(const BodyModel& body, const Motion& motion, const Pose& pose) {
   LimitExcesses simulated;  // mended already
   simulated.fill(kLimitTolerance);
-  return limited(actor.body, pose, actor.motion.playback.shown_before(),
-                 actor.motion.simulated ? simulated : actor.free);
+  return limited(body, pose, motion.playback.shown_before(),
+                 motion.simulated ? simulated : motion.free);
 }
 
 void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
-  actor.kept_out = offsets;
-  actor.motion.playback.amend(
-      in_range(actor, with_offsets(actor.body, actor.motion.unhindered, offsets)));
-  actor.swept.after =
-      capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.playback.shown()));
+  Motion& motion = actor.motion;
+  motion.kept_out = offsets;
+  motion.playback.amend(
+      in_range(actor.body, motion, with_offsets(actor.body, motion.unhindered, offsets)));
+  actor.swept.after = shown_capsules(actor);
+}
+
+BodyCapsules Stage::shown_capsules(const Actor& actor) {
+  return capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.playback.shown()));
 }
 
 void Stage::keep_out_and_record() {
   std::vector<LimbOffsets> before;
   before.reserve(actors_.size());
-  for (const Actor& actor : actors_) before.push_back(actor.kept_out);
+  for (const Actor& actor : actors_) before.push_back(actor.motion.kept_out);
   for (std::size_t i = 0; i < actors_.size(); ++i) keep_out(actors_[i], before[i]);
   // Who was not last has not seen where the others went.
   constexpr float kStillDeep = .02f;  // m
@@ -271,6 +283,7 @@ void Stage::keep_out_and_record() {
   for (Actor& actor : actors_) {
     draw_feet_away(actor);
     set_feet_aside(actor);
+    actor.recorded = true;
     actor.track.frames.push_back(actor.motion.playback.shown());
     actor.track.contacts.push_back(actor.motion.playback.held());
   }
@@ -284,8 +297,9 @@ void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
     if (&other != &actor && apart < kArmsReach * actor.body.scale)
       near.push_back(other.swept.after);
   }
-  amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near,
-                        before, [&](const Pose& pose) { return in_range(actor, pose); }));
+  amend(actor,
+        kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near, before,
+                 [&](const Pose& pose) { return in_range(actor.body, actor.motion, pose); }));
 }
 
 // A foot on which a body falls does not stay under it.
@@ -308,7 +322,7 @@ void Stage::draw_feet_away(Actor& actor) const {
 // carries.
 void Stage::set_feet_aside(Actor& actor) {
   for (const Side side : {Side::left, Side::right}) {
-    Vec3& offset = actor.kept_out[2 + static_cast<std::size_t>(side)];
+    Vec3& offset = actor.motion.kept_out[2 + static_cast<std::size_t>(side)];
     if (!actor.motion.playback.presses_down(side) || offset == Vec3{}) continue;
     const Vec3 aside{offset.x, 0, offset.z};
     actor.motion.playback.stand_aside(side, aside);
@@ -332,13 +346,16 @@ bool Stage::simulated(FighterId fighter) const {
 std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
   const Actor& actor = actors_[fighter.at()];
   Motion ahead = actor.motion;
-  LimbOffsets offsets = actor.seam ? LimbOffsets{} : actor.kept_out;
   std::vector<Pose> poses{ahead.playback.shown()};
-  for (Tick next = tick + 1; static_cast<Tick>(poses.size()) < count; ++next) {
-    if (go_on(actor, next, ahead)) offsets = {};
-    offsets = kept_out(actor.body, ahead.unhindered, ahead.playback.held(), {}, offsets);
-    poses.push_back(ahead.simulated ? ahead.unhindered
-                                    : with_offsets(actor.body, ahead.unhindered, offsets));
+  bool came_back = actor.recorded;  // what was held off in the last tick
+  for (Tick t = tick + 1; static_cast<Tick>(poses.size()) < count; ++t) {
+    if (!came_back) {
+      ahead.kept_out =
+          kept_out(actor.body, ahead.unhindered, ahead.playback.held(), {}, ahead.kept_out);
+    }
+    came_back = false;
+    next(actor, t, ahead);
+    poses.push_back(ahead.playback.shown());
   }
   return poses;
 }

@@ -83,7 +83,12 @@ class Stage {
     std::array<ArmGive, 2> gives{};      // what blows on its guard have left
     std::array<LandedLimb, 4> landed{};  // what its own blows have
     bool simulated = false;              // the pose shown last was
+    bool seam = false;                   // a launch began that is not shown yet
     Pose unhindered{};                   // this tick's pose as if nothing stood in its way
+    LimitExcesses free{};                // how far joints may go before they slow
+    LimitExcesses free_more{};           // of that, what the last seam left
+    std::array<float, 2> swings{};       // 0 the foot carries .. 1: its leg swings
+    LimbOffsets kept_out{};              // what keeps its limbs out of the other bodies
   };
   struct Actor {
     const MotionLibrary* library = nullptr;  // whose clips it shows
@@ -95,25 +100,25 @@ class Stage {
     Sway sway{};                    // of this launch
     std::vector<Pose> simulated{};  // shown before the clip, from `simulated_from` on
     Tick simulated_from = 0;
-    bool seam = false;              // a launch began that is not shown yet
-    LimitExcesses free{};           // how far joints may go before they slow
-    std::array<float, 2> swings{};  // 0 the foot carries .. 1: its leg swings
-    LimitExcesses free_more{};      // of that, what the last seam left
-    LimbOffsets kept_out{};         // what keeps its limbs out of the other bodies
-    Vec3 aside{};                   // taken_aside()
+    bool recorded = false;  // the tick shown last: what keeps limbs out is of that tick
+    Vec3 aside{};           // taken_aside()
     SweptBody swept{};
     FighterTrack track{};
   };
 
   void stitch(const Actor& actor, Tick tick, Playback& playback) const;
-  void free_joints(Actor& actor, Tick tick) const;
+  void free_joints(const Actor& actor, Tick tick, Motion& motion) const;
   bool go_on(const Actor& actor, Tick tick, Motion& motion) const;
+  // The next tick, its limbs held off as they were: a blow's speed is the motion's own, not that of
+  // a limb that comes back to it.
+  void next(const Actor& actor, Tick tick, Motion& motion) const;
   static void relieve_feet(const Pose& clip, Playback& playback);
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   // `pose` of this tick as it is shown: with its joints inside their ranges.
-  static Pose in_range(const Actor& actor, const Pose& pose);
+  static Pose in_range(const BodyModel& body, const Motion& motion, const Pose& pose);
   static void amend(Actor& actor, const LimbOffsets& offsets);
+  static BodyCapsules shown_capsules(const Actor& actor);
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;
   void draw_feet_away(Actor& actor) const;

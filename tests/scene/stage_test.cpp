@@ -275,6 +275,33 @@ TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
   EXPECT_LT(deep, 4);  // 11 where each is kept out once
 }
 
+// A blow of a limb that is held off comes as fast in what a planner is told as it does in the
+// fight.
+TEST_F(StageTest, AMotionInFlightHasTheSpeedsOfALimbThatIsHeldOff) {
+  Stage stage(default_library(), {make_body({}), make_body({})});
+  Stage alone(default_library(), {make_body({})});
+  const FighterId self(0);
+  stage.begin(self, launch("jab_jab_cross", 0, {}));
+  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
+  alone.begin(self, launch("jab_jab_cross", 0, {}));
+  int held_off = 0;
+  for (Tick t = 0; t < 90; ++t) {
+    stage.show(t);
+    show(alone, t);
+    if (t > 0) {
+      stage.keep_out_and_record();
+      held_off += apart(stage, stage.shown(self), alone.shown(self)) > .02f ? 1 : 0;
+      const MotionInFlight motion = stage.in_flight(self, t);
+      Stage next = stage;
+      next.show(t + 1);
+      EXPECT_LT(apart(stage, motion.poses[1], next.shown(self)), .003f) << t;
+    } else {
+      stage.keep_out_and_record();
+    }
+  }
+  EXPECT_GT(held_off, 20);
+}
+
 // Who is struck begins an answer within the tick that shows the blow: what held its arms off until
 // then is not gone in that tick.
 TEST_F(StageTest, AnArmThatIsHeldOffStaysWhereItIsInTheTickOfAnAnswer) {
