@@ -185,6 +185,7 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   }
   input.continued = continued;
   input.blow = blow;
+  input.tone = action.tone;
   input.contacts = action.action->clip.contacts_at(action.clip_age(struck.age));
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
   const bool touch = answer.impulse < kTouchImpulse;

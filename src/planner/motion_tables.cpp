@@ -408,6 +408,7 @@ ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
   const InFlight flight(*this, motion.launch);
   ActionTable table = *flight.table;
   table.clip_ages = motion.clip_ages;
+  table.tone = motion.tone;
   table.length = static_cast<Tick>(table.clip_ages.size()) - 1;
   table.capsules = paced(table.capsules, table.clip_ages);
   table.spheres = paced(table.spheres, table.clip_ages);

@@ -127,6 +127,7 @@ struct ActionTable {
   Tick length = 0;
   std::uint64_t motion = 0;                // its number where it is of a motion in flight, else 0
   std::vector<Tick> clip_ages;             // of one: the clip's age, by ticks since the launch
+  float tone = 1.0f;                       // of its muscles: less where a tired body is in flight
   std::vector<BodyCapsules> capsules;      // action space, one a tick
   std::vector<PartSpheres> spheres;        // around the capsules
   std::vector<PartSpheres::Lanes> travel;  // m: how far each goes in the tick before
@@ -170,6 +171,7 @@ struct MotionInFlight {
   std::vector<Pose> poses;      // world, one a tick
   std::vector<Tick> clip_ages;  // the clip's, from the launch's first tick to its last, or that of
                                 // the last pose
+  float tone = 1.0f;            // of the body's muscles, 0 limp .. 1 full
 };
 
 class MotionTables {

@@ -164,7 +164,10 @@ void Bout::rest(FighterId id) {
 
 // Tells the planner what the fighter's launch looks like from now on.
 void Bout::show_planner(FighterId id) {
-  if (id.valid()) planner_->show(id, stage_.in_flight(id, state_.now));
+  if (!id.valid()) return;
+  MotionInFlight motion = stage_.in_flight(id, state_.now);
+  motion.tone = standing_[id.at()].condition.tone();
+  planner_->show(id, motion);
 }
 
 Plan Bout::decide(FighterId id) {

@@ -197,8 +197,10 @@ TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
     ActionTable shown = *one.blow.struck.table;
     for (Tick t = 0; t <= shown.length; ++t) shown.clip_ages.push_back(t);
     shown.motion = memo.begin_motion();
+    shown.tone = shown.motion % 2 == 0 ? 1.0f : 0.65f;  // every other body is tired
     one.blow.struck.table = &shown;
     one.input.continued = one.continued;
+    one.input.tone = shown.tone;
     const std::uint64_t before = memo.counts().entries;
     const ImpactAnswer answer = memo.answer(one.blow);
     EXPECT_EQ(memo.counts().entries, before + 1);

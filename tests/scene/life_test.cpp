@@ -71,5 +71,22 @@ TEST(Life, FightersTireAndAreHurtOnlyWhereTheirStyleSaysSo) {
   EXPECT_GT(most, 0.1f);
 }
 
+// A tired body has less tone: the tree is told of it, and foresees what it does.
+TEST(Life, TheTreeForeseesWhatTiredBodiesDo) {
+  int hits = 0, foreseen = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    SceneFile scene = duel("12");
+    scene.seed = seed;
+    for (SceneFighter& fighter : scene.fighters) fighter.style.fatigue = 100;
+    for (const Event& event : simulate_fight(default_library(), scene).timeline.events) {
+      if (event.type != EventType::hit && event.type != EventType::block) continue;
+      ++hits;
+      foreseen += event.foreseen ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 30);
+  EXPECT_LE(hits - foreseen, hits / 25) << hits;
+}
+
 }  // namespace
 }  // namespace ringcraft
