@@ -268,26 +268,35 @@ void Bout::note_strikes(FighterId id) {
     const auto reached = [&](Tick tick) { return before < tick && age >= tick; };
     const bool begins = reached(strike.active_begin);
     const bool missed = reached(strike.active_end) && !launch.has_spent(i);
-    if (!begins && !missed) continue;
-    Event event;
-    event.tick = state_.now;
-    event.type = begins ? EventType::strike : EventType::miss;
-    event.who = id;
-    event.whom = fighter(id).opponent;
-    event.action = action.name;
-    event.strike = strike.kind;
-    event.fatigue = static_cast<float>(standing_[id.at()].condition.fatigue());
-    record_.timeline.events.push_back(std::move(event));
+    if (begins || missed) note_strike(begins ? EventType::strike : EventType::miss, id, strike);
     if (missed) launch.spend(i);
   }
 }
 
+void Bout::note_strike(EventType type, FighterId id, const Strike& strike) {
+  Event event;
+  event.tick = state_.now;
+  event.type = type;
+  event.who = id;
+  event.whom = fighter(id).opponent;
+  event.action = action_of(id).name;
+  event.strike = strike.kind;
+  event.fatigue = static_cast<float>(standing_[id.at()].condition.fatigue());
+  record_.timeline.events.push_back(std::move(event));
+}
+
+// Nobody strikes a team mate, nor, where the scene says so, whoever is down.
+bool Bout::may_strike(FighterId attacker, FighterId target) const {
+  const bool spared = state_.fighters[target.at()].down() && !scene_.planner.hits_on_downed;
+  return enemies(attacker, target) && !spared;
+}
+
+// Whoever it is that the strike meets first.
 std::optional<Bout::Touch> Bout::touch_of(FighterId attacker, std::size_t strike) const {
   std::optional<Touch> first;
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     const FighterId target(i);
-    if (!enemies(attacker, target)) continue;
-    if (state_.fighters[i].down() && !scene_.planner.hits_on_downed) continue;
+    if (target == attacker) continue;
     const auto contact = strike_contact(stage_.swept(attacker), action_of(attacker).strikes[strike],
                                         stage_.swept(target));
     if (contact && (!first || contact->share < first->contact.share)) {
@@ -312,12 +321,18 @@ std::vector<Bout::Touch> Bout::touches() const {
   return found;
 }
 
+// A blow on somebody, or one that a body which nobody strikes stops: it is over there.
 void Bout::commit_touch(const Touch& touch) {
   const FighterId attacker = touch.attacker, target = touch.target;
   const Action& attack = library_.action(touch.action);
   const Strike strike = attack.strikes.at(touch.strike);
-  if (fighter(attacker).launch.action == touch.action) {
-    fighter(attacker).launch.spend(touch.strike);
+  const bool goes_on = fighter(attacker).launch.action == touch.action;
+  if (goes_on) fighter(attacker).launch.spend(touch.strike);
+  if (!may_strike(attacker, target)) {
+    if (!goes_on) return;
+    note_strike(EventType::miss, attacker, strike);
+    stage_.land(attacker, touch.contact);
+    return;
   }
   Event event;
   event.action = attack.name;

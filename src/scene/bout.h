@@ -60,6 +60,8 @@ class Bout {
   void show_planner(FighterId id);
   void rest(FighterId id);
   void note_strikes(FighterId id);
+  void note_strike(EventType type, FighterId id, const Strike& strike);
+  bool may_strike(FighterId attacker, FighterId target) const;
   std::vector<Touch> touches() const;
   std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;
   void commit_touch(const Touch& touch);

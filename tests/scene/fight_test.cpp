@@ -7,6 +7,7 @@
 
 #include "default_library.h"
 #include "physics/response.h"
+#include "scene/bout.h"
 
 namespace ringcraft {
 namespace {
@@ -104,6 +105,45 @@ TEST(Fight, ThreeFightersEachFaceTheirNearestOpponent) {
     }
   }
   EXPECT_EQ(deciders.size(), 3u);
+}
+
+// Who kicks has a team mate in the way of the leg: it stops there, and nobody else is struck.
+TEST(Fight, ABlowEndsWhereATeamMateStandsInItsWay) {
+  const MotionLibrary& library = default_library();
+  SceneFile scene = scene_of("brawl3", {"duration_s=2"});
+  scene.fighters[1].team = scene.fighters[0].team;
+  scene.fighters[0].placement = {0, 0, 0};
+  scene.fighters[1].placement = {-.45f, .6f, 0};
+  scene.fighters[2].placement = {0, 1.05f, kPi};
+  Bout bout(library, scene, {});
+  const FighterId kicker(0);
+  for (auto fighter = run_to_decision(bout); fighter; fighter = run_to_decision(bout)) {
+    const bool kicks = *fighter == kicker && bout.state().now < kTicksPerSecond / 2;
+    Plan plan;
+    plan.launch = following(library, bout.state().fighters[fighter->at()].launch,
+                            library.find(kicks ? "roundhouse_rear_middle" : "guard_1"),
+                            bout.state().now, {0, 0, 1.05f}, 1, 0);
+    bout.commit(*fighter, plan);
+  }
+  const FightRecord record = bout.record();
+  const auto& events = record.timeline.events;
+  EXPECT_TRUE(std::none_of(events.begin(), events.end(), [](const Event& event) {
+    return event.type == EventType::hit || event.type == EventType::block;
+  }));
+  EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                          [&](const Event& event) {
+                            return event.type == EventType::miss && event.who == kicker;
+                          }),
+            1);
+  const auto foot = [&](std::size_t t) {
+    const Pose& pose = record.timeline.tracks[0].frames[t];
+    return world_pose(record.bodies[0].skeleton, pose).position[index(Joint::right_foot)];
+  };
+  float fastest = 0;  // m/s
+  for (std::size_t t = 1; t < record.timeline.tracks[0].frames.size(); ++t) {
+    fastest = std::max(fastest, glm::distance(foot(t), foot(t - 1)) / kTickSeconds);
+  }
+  EXPECT_LT(fastest, 8.0f);
 }
 
 TEST(Fight, NobodyLeavesTheRing) {
