@@ -56,6 +56,9 @@ class Bout {
   FighterId nearest_opponent(FighterId id) const;
   void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
              const Sway& sway = {});
+  float not_clear(FighterId id, const Launch& launch,
+                  const std::vector<std::vector<Pose>>& others) const;
+  Launch after_victory(FighterId id) const;
   Launch executed(FighterId id, Launch launch) const;
   void show_planner(FighterId id);
   void rest(FighterId id);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "default_library.h"
+#include "physics/penetration.h"
 #include "physics/response.h"
 #include "scene/fight.h"
 
@@ -182,6 +183,41 @@ TEST(Fall, WhoFightsOnDoesNotStandAstrideWhoLies) {
   }
   EXPECT_GT(lain, 10 * kTicksPerSecond);
   EXPECT_LT(stood_astride, lain / 50);
+}
+
+// Who has nobody left to fight does not stay in or over the body that lies.
+TEST(Fall, WhoHasWonStepsClearOfWhoLies) {
+  int won = 0, over = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SceneFile scene = crowd(seed, .5f);
+    scene.duration = 10 * kTicksPerSecond;
+    scene.fighters.resize(2);
+    scene.fighters[0].placement = {0, -.45f, 0};
+    scene.fighters[1].placement = {0, .45f, kPi};
+    const FightRecord record = simulate_fight(default_library(), scene);
+    const auto& events = record.timeline.events;
+    const auto fall = std::find_if(events.begin(), events.end(),
+                                   [](const Event& event) { return event.knockout; });
+    if (fall == events.end()) continue;
+    ++won;
+    const auto shown = [&](std::size_t i) {
+      return capsules(record.bodies[i], world_pose(record.bodies[i].skeleton,
+                                                   record.timeline.tracks[i].frames.back()));
+    };
+    const std::size_t loser = fall->type == EventType::knockdown ? fall->who.at() : fall->whom.at();
+    const BodyCapsules stands = shown(1 - loser), lies = shown(loser);
+    float apart = 1;
+    for (const Part foot : {Part::left_foot, Part::right_foot}) {
+      for (const Capsule& part : lies) {
+        const Capsule& sole = stands[index(foot)];
+        apart = std::min(apart, segment_distance(sole.a, sole.b, part.a, part.b).distance -
+                                    sole.radius - part.radius);
+      }
+    }
+    over += apart < .05f || astride(stands, lies) ? 1 : 0;
+  }
+  EXPECT_GT(won, 0);
+  EXPECT_EQ(over, 0);
 }
 
 // Gloves end a hand's length beyond the wrist, and so does what props a body up.
