@@ -35,6 +35,8 @@ constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that t
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
 constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster than that, and
 constexpr float kSlowsAt = 18;            // 1/s: times its height over it, after a simulation
+constexpr float kSkims = 0.03f;           // s: times its speed over the ground, as high it stays
+constexpr float kStaysUp = 10;            // m/s2: braked by no more than that for it
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongestLeg = 0.9995f;    // of its length: where nothing is eased any more
 constexpr float kKneeAcceleration = 60;   // m/s2: of a knee off its leg's line, beyond the clip's
@@ -352,6 +354,19 @@ float Feet::floor_of_shown(const Foot& foot) const {
   return ball_floor(skeleton_, glm::normalize(spin * foot.shown));
 }
 
+// m/s: how fast a foot that a simulation threw may come down. One that goes by its joints stays up
+// until it has slowed over the ground: it would skim the floor.
+float Feet::fastest_descent(const Foot& foot, float floor) const {
+  const float height = foot.ball.y - floor;
+  const float slows = kMeetsFloor + kSlowsAt * std::max(0.0f, height);
+  if (!foot.by_joints || lies()) return slows;
+  const Vec3 velocity = foot.moved() / kTickSeconds;
+  const float speed = glm::length(on_ground(velocity));
+  const float arrives = 1 - glm::smoothstep(kLandingSpeed, 2 * kLandingSpeed, speed);
+  const float stays = kMeetsFloor * arrives + kSlowsAt * std::max(0.0f, height - kSkims * speed);
+  return std::min(slows, std::max(stays, -velocity.y - kStaysUp * kTickSeconds));
+}
+
 // Where the ball of the foot goes in this tick.
 Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor) {
   Foot& foot = of(side);
@@ -385,8 +400,7 @@ Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, f
   foot.rise_age += kTickSeconds;
   // A foot that a simulation threw slows before it meets the floor.
   if (after_simulation_ && foot.mode != Mode::held) {
-    const float most = kMeetsFloor + kSlowsAt * std::max(0.0f, foot.ball.y - floor);
-    ball.y = std::max(ball.y, foot.ball.y - most * kTickSeconds);
+    ball.y = std::max(ball.y, foot.ball.y - fastest_descent(foot, floor) * kTickSeconds);
   }
   // Never under the floor; one that a simulation left there comes up as its offset decays.
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);

@@ -189,6 +189,32 @@ TEST(StruckBodies, ALegInTheAirIsNotThrownByTheKneeOfItsClip) {
   EXPECT_LT(jump, 3.0f);
 }
 
+// A foot that was in the air comes down when it has slowed over the ground: until then its sole is
+// off the floor. It skimmed over it for 0.59 to 0.70 m.
+TEST(StruckBodies, SetFeetDownThatHaveSlowed) {
+  const std::vector<StruckCase> cases{
+      {"front_kick_rear", .1689, Part::head, {-3.19f, 0, 33.53f}, .779f},
+      {"idle_guard_2", .4718, Part::right_thigh, {100.68f, 0, 32.59f}, .784f},
+      {"roundhouse_rear_low", .4873, Part::head, {13.91f, 0, .41f}, .777f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    const BodyModel& body = answer.bodies.front();
+    const auto frames = frames_from_hit(answer);
+    float skims = 0;  // m
+    for (std::size_t t = 19; t < frames.size(); ++t) {
+      const WorldPose before = world_pose(body.skeleton, frames[t - 1]),
+                      now = world_pose(body.skeleton, frames[t]);
+      for (const Side side : {Side::left, Side::right}) {
+        const Vec3 moved = now.position[index(toes(side))] - before.position[index(toes(side))];
+        const float far = std::hypot(moved.x, moved.z);
+        const bool skimming = sole_height(body, now, side) < .025f && far > 1.0f * kTickSeconds;
+        skims += skimming ? far : 0;
+      }
+    }
+    EXPECT_LT(skims, .4f) << c.action;
+  }
+}
+
 // A foot that stands where its leg comes to the end of its range steps before, and is not torn off.
 TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
   const HitAnswer answer = answer_to_case(
