@@ -13,6 +13,7 @@
 #include "planner/tree.h"
 #include "scene/answer.h"
 #include "scene/hit_replay.h"
+#include "scene/stand_clear.h"
 
 namespace ringcraft {
 
@@ -24,11 +25,7 @@ double microseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
 }
 
-constexpr Tick kOpeningTicks = 24;        // in guard before the first decision
-constexpr float kIdleTurn = radians(15);  // toward the opponent, in one idle
-constexpr float kClearOfLying = 0.5f;     // m from a root to the nearest part of who lies
-constexpr float kWorthAStep = 0.03f;      // m that a step leads clear, at least
-constexpr Tick kLookEvery = 6;            // ticks
+constexpr Tick kOpeningTicks = 24;  // in guard before the first decision
 constexpr Tick kAfterKnockout = 3 * kTicksPerSecond;
 constexpr Tick kForeseenTicks = 6;        // a contact so far from when it was foreseen is another
 constexpr float kTouchingDepth = 0.006f;  // m: bodies deeper than this push each other apart
@@ -229,80 +226,22 @@ bool Bout::has_won(FighterId id) const {
   return true;
 }
 
-// How far who has won is from standing clear where `launch` leads, m: of who lies as it ends, and
-// of everybody on the way. 0 where it is clear. `others`: what the others will show from now on.
-float Bout::not_clear(FighterId id, const Launch& launch,
-                      const std::vector<std::vector<Pose>>& others) const {
-  const MotionLibrary& library = library_.of(id);
-  const BodyModel& body = stage_.body(id);
-  const Vec3 stands = root_at(library, launch, launch.end, body.scale).position();
-  float deepest = 0, nearest = kClearOfLying;
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    if (others[i].empty()) continue;
-    const BodyModel& other = stage_.body(FighterId(i));
-    const auto shows = [&](Tick tick) {
-      const auto at = static_cast<std::size_t>(tick - state_.now);
-      return capsules(other, world_pose(other.skeleton, others[i].at(at)));
-    };
-    for (Tick tick = launch.start + kLookEvery; tick <= launch.end; tick += kLookEvery) {
-      const Pose pose = pose_at(library, launch, tick, body.scale);
-      const BodyCapsules own = capsules(body, world_pose(body.skeleton, pose));
-      deepest = std::max(deepest, deepest_penetration(own, shows(tick)).depth);
-    }
-    if (!state_.fighters[i].down()) continue;
-    for (const Capsule& part : shows(launch.end)) {
-      const Vec3 a{part.a.x, 0, part.a.z}, b{part.b.x, 0, part.b.z};
-      nearest = std::min(nearest, segment_distance(stands, stands, a, b).distance - part.radius);
-    }
-  }
-  return deepest + kClearOfLying - nearest;
-}
-
-// What who has nobody left to fight does next: the idle that follows best, toward the opponent, or
-// where that is in somebody or astride who lies the step that leads clear of them.
-Launch Bout::after_victory(FighterId id) const {
-  const Launch& last = state_.fighters[id.at()].launch;
-  const Vec3 opponent = ground_position(state_.fighters[id.at()].opponent);
-  const auto& edges = library_.machine().edges(last.action);
-  const auto launch_by = [&](const Edge& edge) {
-    return following(library_, last, edge.to, state_.now, opponent, stage_.body(id).scale,
-                     kIdleTurn);
-  };
-  const auto idle = std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) {
-    return library_.action(edge.to).kind == Kind::idle;
-  });
-  std::vector<Launch> choices{launch_by(idle == edges.end() ? edges.front() : *idle)};
-  for (const Edge& edge : edges) {
-    const Action& action = library_.action(edge.to);
-    if (action.kind != Kind::transition || action.feint || action.switches) continue;
-    const Launch step = launch_by(edge);
-    const Vec3 at = root_at(library_.of(id), step, step.end, stage_.body(id).scale).position();
-    const float inside = scene_.ring / 2 - kInsideRopes;
-    if (scene_.ring > 0 && std::max(std::abs(at.x), std::abs(at.z)) > inside) continue;
-    choices.push_back(step);
-  }
-  Tick until = state_.now;
-  for (const Launch& launch : choices) until = std::max(until, launch.end);
-  std::vector<std::vector<Pose>> others(state_.fighters.size());
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    if (FighterId(i) != id) {
-      others[i] = stage_.continued(FighterId(i), state_.now, until - state_.now + 1);
-    }
-  }
-  std::size_t best = 0;
-  float least = not_clear(id, choices.front(), others) - kWorthAStep;
-  for (std::size_t i = 1; i < choices.size() && least > 0; ++i) {
-    const float left = not_clear(id, choices[i], others);
-    if (left >= least) continue;
-    least = left;
-    best = i;
-  }
-  return choices[best];
-}
-
 void Bout::commit_idle(FighterId id) {
   fighter(id).balance = 0;
-  begin(id, after_victory(id));
+  const BodyModel& body = stage_.body(id);
+  const std::vector<Launch> ways =
+      ways_to_stand(library_, fighter(id).launch, state_.now, ground_position(fighter(id).opponent),
+                    body.scale, scene_.ring);
+  Tick until = state_.now;
+  for (const Launch& way : ways) until = std::max(until, way.end);
+  std::vector<Bystanding> others;
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
+    const FighterId other(i);
+    if (other == id) continue;
+    others.push_back({&stage_.body(other), fighter(other).down(),
+                      stage_.continued(other, state_.now, until - state_.now + 1)});
+  }
+  begin(id, clearest(library_.of(id), body, state_.now, ways, others));
 }
 
 void Bout::advance_one_tick() {

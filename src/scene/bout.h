@@ -29,7 +29,7 @@ class Bout {
   DecisionTree tree(FighterId fighter, const Plan& plan, std::size_t most_nodes) const;
   void commit(FighterId fighter, const Plan& plan);
   void commit_get_up(FighterId fighter);
-  void commit_idle(FighterId fighter);
+  void commit_idle(FighterId fighter);  // of who has won
   void advance_one_tick();
   FightRecord record();
 
@@ -56,9 +56,6 @@ class Bout {
   FighterId nearest_opponent(FighterId id) const;
   void begin(FighterId id, const Launch& launch, std::vector<Pose> simulated = {},
              const Sway& sway = {});
-  float not_clear(FighterId id, const Launch& launch,
-                  const std::vector<std::vector<Pose>>& others) const;
-  Launch after_victory(FighterId id) const;
   Launch executed(FighterId id, Launch launch) const;
   void show_planner(FighterId id);
   void rest(FighterId id);
