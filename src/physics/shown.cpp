@@ -22,6 +22,7 @@ constexpr float kMeetFrom = .12f;    // s: from here on hips and legs do; sooner
 constexpr float kArmsMeetBy = .30f;  // s: as light as they are, they swing fastest
 constexpr float kProtect = .10f;     // s: from here on a falling body protects itself
 constexpr float kLimpTone = .03f;    // of a knocked-out body; 0 looks like a sack
+constexpr float kLimpLyingTone = .003f;  // more, and forearms of a guard stay up
 constexpr float kLyingTone = .08f;
 constexpr float kLetDownTone = .3f;
 constexpr float kFade = .6f;  // s after the landing in which the muscles let go
@@ -422,10 +423,10 @@ class Shown {
   }
 
   Tone fall_tone(float now) const {
-    if (outcome_.knockout) return whole_body(kLimpTone);
+    const float gone = landed_ < 0 ? 0 : std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
+    if (outcome_.knockout) return whole_body(glm::mix(kLimpTone, kLimpLyingTone, gone));
     Tone tone = now < kProtect ? standing_tone(now, tone_) : falling_tone();
     if (landed_ < 0) return tone;
-    const float gone = std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
     const float since = now - landed_;
     // The legs are let down before they, too, let go.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "default_library.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
@@ -218,6 +219,39 @@ TEST(Fall, WhoHasWonStepsClearOfWhoLies) {
   }
   EXPECT_GT(won, 0);
   EXPECT_EQ(over, 0);
+}
+
+// No forearm of who is out stands up from the floor as in the guard that the blow has found.
+TEST(Fall, WhoIsOutLetsItsArmsDown) {
+  const BodyModel body = make_body({});
+  const Clip& guard = default_library().action(default_library().find("guard_1")).clip;
+  Random random(3);
+  int steep = 0;
+  for (int k = 0; k < 40; ++k) {
+    std::vector<Pose> continued;
+    const Tick from = 1 + random.below(guard.length() - kImpulseStepTicks - 2);
+    for (Tick t = 0; t <= kImpulseStepTicks; ++t) continued.push_back(guard.at(from + t));
+    ImpactInput input;
+    input.pose = continued.front();
+    input.pose_before = guard.at(from - 1);
+    input.continued = continued;
+    input.contacts = guard.contacts_at(from);
+    input.blow.part = Part::head;
+    input.blow.effective_mass = 3;
+    const float yaw = random.uniform(-kPi, kPi);
+    input.blow.impulse = Vec3{std::sin(yaw), 0, std::cos(yaw)} * random.uniform(20, 60);
+    input.blow.point = capsules(body, world_pose(body.skeleton, input.pose))[index(Part::head)].a;
+    ImpactOutcome outcome = impulse_step(body, input);
+    outcome.response = ResponseKind::knockdown;
+    outcome.knockout = true;
+    const Pose rests = simulate_response(body, input, outcome, {}, 3 * kTicksPerSecond).back();
+    const BodyCapsules lies = capsules(body, world_pose(body.skeleton, rests));
+    for (const Part part : {Part::left_forearm, Part::right_forearm}) {
+      const Capsule& forearm = lies[index(part)];
+      steep += forearm.b.y - forearm.a.y > .7f * glm::distance(forearm.a, forearm.b) ? 1 : 0;
+    }
+  }
+  EXPECT_LT(steep, 5);
 }
 
 // Gloves end a hand's length beyond the wrist, and so does what props a body up.
