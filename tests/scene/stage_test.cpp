@@ -28,6 +28,13 @@ class StageTest : public testing::Test {
     }
     return most;
   }
+  // At each other, so near that arms meet arms.
+  static Stage two_who_strike() {
+    Stage stage(default_library(), {make_body({}), make_body({})});
+    stage.begin(FighterId(0), launch("jab_jab_cross", 0, {}));
+    stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
+    return stage;
+  }
   static void show(Stage& stage, Tick tick) {
     stage.show(tick);
     stage.keep_out_and_record();
@@ -249,9 +256,7 @@ TEST_F(StageTest, AFootThatIsFallenUponIsDrawnAway) {
 // Two who strike at each other, nobody stopped by what he meets: who was kept out first gives way
 // again where the other one could not.
 TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
-  Stage stage(default_library(), {make_body({}), make_body({})});
-  stage.begin(FighterId(0), launch("jab_jab_cross", 0, {}));
-  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
+  Stage stage = two_who_strike();
   const auto capsules_of = [&](FighterId who) {
     const BodyModel& body = stage.body(who);
     return capsules(body, world_pose(body.skeleton, stage.shown(who)));
@@ -278,11 +283,8 @@ TEST_F(StageTest, ArmsOfBothGiveWayToEachOther) {
 // A blow of a limb that is held off comes as fast in what a planner is told as it does in the
 // fight.
 TEST_F(StageTest, AMotionInFlightHasTheSpeedsOfALimbThatIsHeldOff) {
-  Stage stage(default_library(), {make_body({}), make_body({})});
-  Stage alone(default_library(), {make_body({})});
+  Stage stage = two_who_strike(), alone(default_library(), {make_body({})});
   const FighterId self(0);
-  stage.begin(self, launch("jab_jab_cross", 0, {}));
-  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
   alone.begin(self, launch("jab_jab_cross", 0, {}));
   int held_off = 0;
   for (Tick t = 0; t < 90; ++t) {
@@ -301,11 +303,8 @@ TEST_F(StageTest, AMotionInFlightHasTheSpeedsOfALimbThatIsHeldOff) {
 // Who is struck begins an answer within the tick that shows the blow: what held its arms off until
 // then is not gone in that tick.
 TEST_F(StageTest, AnArmThatIsHeldOffStaysWhereItIsInTheTickOfAnAnswer) {
-  Stage stage(default_library(), {make_body({}), make_body({})});
-  Stage alone(default_library(), {make_body({})});
+  Stage stage = two_who_strike(), alone(default_library(), {make_body({})});
   const FighterId self(0);
-  stage.begin(self, launch("jab_jab_cross", 0, {}));
-  stage.begin(FighterId(1), launch("double_jab_left", 0, {0, .6f, kPi}));
   alone.begin(self, launch("jab_jab_cross", 0, {}));
   const auto hand = [&](const Stage& of, Joint which) {
     return world_pose(of.body(self).skeleton, of.shown(self)).position[index(which)];
