@@ -38,8 +38,8 @@ Weights weights_at(const Style& style, double quiet, double apart, double scale)
 }
 
 double least_location_rate(const Weights& weights, std::size_t fallen) {
-  const double bodies = 1 + static_cast<double>(fallen);
-  const double farthest = weights.least - kOverlapCost * kOverlapDistance * bodies;
+  const double cost = kOverlapCost + kFallenCost * static_cast<double>(fallen);
+  const double farthest = weights.least - cost * kOverlapDistance;
   return weights.location * farthest - weights.facing * 2 - weights.ropes;
 }
 

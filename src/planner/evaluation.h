@@ -40,6 +40,7 @@ Weights weights_at(const Style& style, double quiet, double apart = 0, double sc
 
 inline constexpr double kOverlapDistance = 0.5;  // m: roots nearer than this overlap
 inline constexpr double kOverlapCost = 10.0;     // points/s per metre
+inline constexpr double kFallenCost = 40.0;      // the same in who lies, beside the opponent
 inline constexpr double kRopesNear = 0.8;        // m
 inline constexpr double kLyingReach = 1.0;       // m: from the root of who lies to its head or feet
 inline constexpr float kInsideRopes = 0.2f;      // m: from the ropes to a root, which they hold
@@ -52,7 +53,7 @@ inline double location_rate(const Weights& weights, double distance, double cosi
                             bool down = false, double in_fallen = 0) {
   const double wanted = weights.distance + (down ? kLyingReach : 0.0);
   double in_reach = std::max(weights.least, -std::abs(distance - wanted) / weights.sigma);
-  in_reach -= kOverlapCost * (std::max(0.0, kOverlapDistance - distance) + in_fallen);
+  in_reach -= kOverlapCost * std::max(0.0, kOverlapDistance - distance) + kFallenCost * in_fallen;
   const double at_ropes = std::clamp(1 - to_ropes / kRopesNear, 0.0, 1.0);
   return weights.location * in_reach - weights.facing * (1 - cosine) - weights.ropes * at_ropes;
 }

@@ -109,7 +109,7 @@ TEST(EvaluationTest, WhoLiesIsGivenRoom) {
 TEST(EvaluationTest, WhoStandsInOthersWhoLiePaysAsForTheOpponentsRoot) {
   const Weights weights = weights_at({}, 0);
   const double in_one = location_rate(weights, weights.distance, 1, 3, false, kOverlapDistance);
-  EXPECT_DOUBLE_EQ(in_one, -weights.location * kOverlapCost * kOverlapDistance);
+  EXPECT_DOUBLE_EQ(in_one, -weights.location * kFallenCost * kOverlapDistance);
   EXPECT_LE(least_location_rate(weights, 2),
             location_rate(weights, 0, -1, 0, true, 2 * kOverlapDistance));
 }
