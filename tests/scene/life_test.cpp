@@ -71,10 +71,11 @@ TEST(Life, FightersTireAndAreHurtOnlyWhereTheirStyleSaysSo) {
   EXPECT_GT(most, 0.1f);
 }
 
-// A tired body has less tone: the tree is told of it, and foresees what it does.
+// A tired body has less tone: the tree is told of it, and foresees what it does. In each of these
+// fights a body of full tone would once have answered otherwise.
 TEST(Life, TheTreeForeseesWhatTiredBodiesDo) {
   int hits = 0, foreseen = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {5, 7, 10}) {
     SceneFile scene = duel("12");
     scene.seed = seed;
     for (SceneFighter& fighter : scene.fighters) fighter.style.fatigue = 100;
@@ -84,8 +85,8 @@ TEST(Life, TheTreeForeseesWhatTiredBodiesDo) {
       foreseen += event.foreseen ? 1 : 0;
     }
   }
-  EXPECT_GT(hits, 30);
-  EXPECT_LE(hits - foreseen, hits / 25) << hits;
+  EXPECT_GT(hits, 10);
+  EXPECT_LE(hits - foreseen, 1) << hits;
 }
 
 }  // namespace
