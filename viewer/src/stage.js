@@ -30,7 +30,7 @@ function backdrop() {
 }
 
 function lights(scene) {
-  scene.add(new HemisphereLight('#c9d8ff', '#4a3f38', 0.95));
+  scene.add(new HemisphereLight('#dfe6f5', '#6e5f54', 1.0));
 
   // Key: the lamps over the ring, warm, a little to one side so that bodies are modelled.
   const key = new DirectionalLight('#fff0dc', 2.7);
@@ -43,11 +43,14 @@ function lights(scene) {
   key.shadow.radius = 4;
   scene.add(key, key.target);
 
-  const rim = new DirectionalLight('#8fb4ff', 2.1);
-  rim.position.set(-4.5, 4.5, -5.5);
-  const fill = new DirectionalLight('#ffd9c2', 0.45);
+  // Nearly white: it is the key of who looks from over there, and a blue one makes skin ashen.
+  const rim = new DirectionalLight('#e3e9ff', 1.9);
+  rim.position.set(-4.5, 5.5, -5.5);
+  const fill = new DirectionalLight('#ffd9c2', 0.7);
   fill.position.set(-5, 2.5, 4);
-  scene.add(rim, fill);
+  const back = new DirectionalLight('#ffd9c2', 0.4);
+  back.position.set(5, 2.5, -4);
+  scene.add(rim, fill, back);
   return key;
 }
 
