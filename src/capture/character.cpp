@@ -95,7 +95,7 @@ Result<Character> parse_character(std::string_view bytes, const std::string& fil
   character.materials = std::move(looks->materials);
   character.images = std::move(looks->images);
   character.notes = std::move(looks->notes);
-  const auto ours = [&](Vec3 raw) { return map->axes * raw * map->metres_per_unit; };
+  const auto ours = [&](Vec3 raw) { return map->rest * raw * map->metres_per_unit; };
   for (std::size_t j = 0; j < kJointCount; ++j)
     if (map->source.at(j) >= 0)
       character.joint.at(j) =
@@ -108,7 +108,7 @@ Result<Character> parse_character(std::string_view bytes, const std::string& fil
     piece.weights.reserve(piece.position.size());
     for (std::size_t v = 0; v < piece.position.size(); ++v) {
       piece.position[v] = ours(piece.position[v]);
-      piece.normal[v] = normalized_or(map->axes * piece.normal[v], kUp);
+      piece.normal[v] = normalized_or(map->rest * piece.normal[v], kUp);
       if (!(glm::length(piece.position[v]) <= kFarthest))
         return input_error(file, "", "a vertex lies far from the body", "export it again");
       piece.weights.push_back(weights_of(surface, v, bones));

@@ -1,6 +1,9 @@
 #include "capture/profile.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -13,6 +16,7 @@ namespace {
 
 constexpr float kShortestLeg = 0.45f;  // m, hip to ankle
 constexpr float kLongestLeg = 1.25f;
+constexpr float kUnits[] = {0.01f, 1.0f, 0.0254f, 0.001f, 0.0254f / 0.45f};  // m; the last CMU's
 
 Vec3 axis_from(const std::string& text) {
   Vec3 axis{};
@@ -70,6 +74,102 @@ std::array<int, kJointCount> found_joints(const SkeletonProfile& profile, const 
       found[j] = -1;
   }
   return found;
+}
+
+// Ways through a body, file units and axes.
+struct RestLines {
+  Vec3 trunk;  // from between the hip joints to between the shoulders
+  Vec3 legs;   // from between the hip joints to between the ankles
+  Vec3 hips;   // from the right hip joint to the left one
+};
+
+Vec3 middle(const RawPose& pose, const JointMap& map, Joint left, Joint right) {
+  const auto place = [&](Joint joint) {
+    return pose.position[static_cast<std::size_t>(map.source[index(joint)])];
+  };
+  return 0.5f * (place(left) + place(right));
+}
+
+RestLines rest_lines(const RawClip& clip, const JointMap& map) {
+  const RawPose rest = raw_rest_pose(clip);
+  const Vec3 hips = middle(rest, map, Joint::left_upper_leg, Joint::right_upper_leg);
+  const Vec3 left = middle(rest, map, Joint::left_upper_leg, Joint::left_upper_leg);
+  return {middle(rest, map, Joint::left_upper_arm, Joint::right_upper_arm) - hips,
+          middle(rest, map, Joint::left_foot, Joint::right_foot) - hips, 2.0f * (left - hips)};
+}
+
+// Whether the rest pose stands in these axes, its left on the left.
+bool agrees(const Quat& axes, const RestLines& lines) {
+  constexpr float kStraight = 0.5f;  // cosine: legs may stand astride
+  constexpr float kTurned = 0.87f;   // of 30 degrees
+  return (axes * lines.legs).y < -kStraight * glm::length(lines.legs) &&
+         (axes * lines.hips).x > kTurned * glm::length(lines.hips);
+}
+
+Vec3 nearest_axis(Vec3 v) {
+  const Vec3 size = glm::abs(v);
+  const int most = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+  Vec3 axis{};
+  axis[most] = v[most] < 0 ? -1.0f : 1.0f;
+  return axis;
+}
+
+// Turns the rest pose's axes to ours: up where its trunk points, left where its left hip is.
+std::optional<Quat> axes_of_rest(const RestLines& lines) {
+  constexpr float kStraight = 0.87f;  // of 30 degrees: hips off an axis by less lie along it
+  const Vec3 up = nearest_axis(lines.trunk);
+  const Vec3 across = lines.hips - up * glm::dot(up, lines.hips);
+  if (glm::length(across) < 0.5f * glm::length(lines.hips) || glm::length(across) == 0)
+    return std::nullopt;
+  Vec3 left = glm::normalize(across);
+  if (glm::dot(left, nearest_axis(left)) > kStraight) left = nearest_axis(left);
+  return glm::normalize(glm::quat_cast(glm::transpose(glm::mat3(left, up, glm::cross(left, up)))));
+}
+
+// The file's axis along which people stand in the motion: `said`, unless nobody does.
+Vec3 up_of_motion(const RawClip& clip, const JointMap& map, Vec3 said) {
+  constexpr std::size_t kSamples = 100;
+  constexpr float kUpright = 0.8f;     // cosine
+  constexpr float kMostTime = 0.5f;    // of the samples upright along another axis
+  constexpr float kHardlyEver = 0.1f;  // along the one that was said
+  std::array<std::array<float, 2>, 3> upright{};
+  for (std::size_t i = 0; i < kSamples && clip.frames > 0; ++i) {
+    const RawPose pose = raw_pose(clip, clip.seconds() * static_cast<double>(i) / kSamples);
+    const Vec3 body = middle(pose, map, Joint::left_upper_arm, Joint::right_upper_arm) -
+                      middle(pose, map, Joint::left_foot, Joint::right_foot);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::abs(body[static_cast<int>(axis)]) > kUpright * glm::length(body))
+        upright[axis][body[static_cast<int>(axis)] < 0] += 1.0f / kSamples;
+  }
+  Vec3 up = said;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float sign : {1.0f, -1.0f}) {
+      Vec3 other{};
+      other[axis] = sign;
+      const float share = upright[static_cast<std::size_t>(axis)][sign < 0];
+      if (share > kMostTime) up = other;
+      if (other == said && share > kHardlyEver) return said;
+    }
+  return up;
+}
+
+// The profile's own units, then those that files come in.
+Result<float> unit_of(const SkeletonProfile& profile, const RawClip& clip, const JointMap& map) {
+  const RawPose rest = raw_rest_pose(clip);
+  const auto place = [&](Joint joint) {
+    return rest.position[static_cast<std::size_t>(map.source[index(joint)])];
+  };
+  const float leg = glm::distance(place(Joint::left_upper_leg), place(Joint::left_lower_leg)) +
+                    glm::distance(place(Joint::left_lower_leg), place(Joint::left_foot));
+  std::vector<float> units = profile.metres_per_unit;
+  units.insert(units.end(), std::begin(kUnits), std::end(kUnits));
+  for (const float unit : units)
+    if (leg * unit >= kShortestLeg && leg * unit <= kLongestLeg) return unit;
+  return input_error(clip.file, "",
+                     fmt::format("a leg of {} units has no human length in any unit of captures "
+                                 "and none of profile {}",
+                                 leg, profile.name),
+                     "add the file's unit to metres_per_unit");
 }
 
 }  // namespace
@@ -165,14 +265,15 @@ Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profile
                                      const RawClip& clip) {
   constexpr float kLeast = 0.8f;
   const SkeletonProfile* best = nullptr;
-  std::tuple<bool, float, long> best_score{false, kLeast, -1};
+  std::tuple<bool, float, bool, long> best_score{false, kLeast, false, -1};
   for (const SkeletonProfile& profile : profiles) {
     const auto names = std::count_if(profile.source.begin(), profile.source.end(),
                                      [](const std::string& name) { return !name.empty(); });
     const float share = score(profile, clip);
     if (share < kLeast) continue;
-    const std::tuple<bool, float, long> fit{map_joints(profile, clip).has_value(), share,
-                                            static_cast<long>(names)};
+    const auto map = map_joints(profile, clip);
+    const std::tuple<bool, float, bool, long> fit{map.has_value(), share, map && map->as_written,
+                                                  static_cast<long>(names)};
     if (fit > best_score) {
       best_score = fit;
       best = &profile;
@@ -194,36 +295,28 @@ Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip)
           clip.file, fmt::format("joint {}", profile.source[j]),
           fmt::format("profile {} needs it for {}", profile.name, vrm_name(joint_at(j))),
           "use another profile");
-  map.axes = axes_of(profile);
-
-  const RawPose rest = raw_rest_pose(clip);
-  const auto place = [&](Joint joint) {
-    return rest.position[static_cast<std::size_t>(map.source[index(joint)])];
-  };
-  const float leg_units =
-      glm::distance(place(Joint::left_upper_leg), place(Joint::left_lower_leg)) +
-      glm::distance(place(Joint::left_lower_leg), place(Joint::left_foot));
-  for (const float unit : profile.metres_per_unit) {
-    const float metres = leg_units * unit;
-    if (metres < kShortestLeg || metres > kLongestLeg) continue;
-    map.metres_per_unit = unit;
-    const Vec3 hips_line =
-        map.axes * (place(Joint::left_upper_leg) - place(Joint::right_upper_leg));
-    const Vec3 leg_line = map.axes * (place(Joint::left_foot) - place(Joint::left_upper_leg));
-    if (leg_line.y > -0.5f * glm::length(leg_line))
+  const auto unit = unit_of(profile, clip, map);
+  if (!unit) return tl::unexpected(unit.error());
+  map.metres_per_unit = *unit;
+  const RestLines lines = rest_lines(clip, map);
+  map.stands = glm::dot(lines.trunk, lines.legs) < 0;
+  map.rest = axes_of(profile);
+  map.as_written = agrees(map.rest, lines);
+  if (!map.as_written) {
+    const auto rest = axes_of_rest(lines);
+    if (!rest)
       return input_error(clip.file, "",
-                         fmt::format("profile {}: the legs do not point down", profile.name),
-                         "correct up and forward of the profile");
-    if (hips_line.x <= 0)
-      return input_error(clip.file, "",
-                         fmt::format("profile {}: the left leg is on the right", profile.name),
-                         "correct up and forward of the profile");
-    return map;
+                         fmt::format("profile {}: the hips have no width", profile.name),
+                         "use another profile");
+    map.rest = *rest;
   }
-  return input_error(
-      clip.file, "",
-      fmt::format("a leg of {} units has no human length in profile {}", leg_units, profile.name),
-      "add the file's unit to metres_per_unit");
+  map.axes = map.rest;
+  const Vec3 said = map.stands ? glm::inverse(map.rest) * kUp : profile.up;
+  const Vec3 up = up_of_motion(clip, map, said);
+  if (glm::distance(map.axes * up, kUp) > 0.1f) map.axes = rotation_between(up, kUp);
+  const auto& own = profile.metres_per_unit;
+  map.as_written = map.as_written && std::find(own.begin(), own.end(), *unit) != own.end();
+  return map;
 }
 
 }  // namespace ringcraft

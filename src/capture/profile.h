@@ -14,8 +14,8 @@ namespace ringcraft {
 
 struct SkeletonProfile {
   std::string name;
-  std::vector<float> metres_per_unit;  // candidates, the first that gives human legs is taken
-  Vec3 up{0, 1, 0};                    // in the file's axes
+  std::vector<float> metres_per_unit;  // tried before all others; the first that gives human legs
+  Vec3 up{0, 1, 0};                    // in the file's axes, where its rest pose agrees
   Vec3 forward{0, 0, 1};               // where the rest pose looks, in the file's axes
   std::vector<std::string> prefixes;   // taken off the file's names before they are compared
   std::array<std::string, kJointCount> source;  // empty where the file has no such joint
@@ -28,7 +28,10 @@ struct SkeletonProfile {
 struct JointMap {
   std::array<int, kJointCount> source{};  // joint of the capture, -1 where there is none
   float metres_per_unit = 1;
-  Quat axes{1, 0, 0, 0};  // turns the file's axes to ours
+  Quat axes{1, 0, 0, 0};    // turns the file's axes to ours
+  Quat rest{1, 0, 0, 0};    // turns those of its rest pose, which may lie where the motion stands
+  bool stands = true;       // in its rest pose; else its legs lie along its trunk
+  bool as_written = false;  // axes and unit are the profile's own
 };
 
 Result<SkeletonProfile> read_profile(const std::filesystem::path& path);
@@ -49,13 +52,14 @@ Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& 
 // joint that should carry it. Zero when a limb is missing.
 float score(const SkeletonProfile& profile, const RawClip& clip);
 
-// The best fit of at least 0.8; profiles whose axes and units fit go first, among equals the one
-// that names more joints, then the first.
+// The best fit of at least 0.8; among equals the one whose own axes and units fit, then the one
+// that names more joints, then the first. A profile whose legs have no human length comes last.
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip);
 
-// Error when a needed joint is missing, the legs have no human length in any of the units, or the
-// profile's axes do not have the legs below and the left leg on the left.
+// The rest pose says where its trunk points up and where its left is, if the profile's axes do not
+// fit it; where nobody stands up along that axis, the motion says which one is up. Error when a
+// needed joint is missing, the legs have no human length in any unit, or the hips have no width.
 Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip);
 
 }  // namespace ringcraft

@@ -30,7 +30,7 @@ Vec3 rest_bone(const RawPose& rest, const JointMap& map, Joint from, Joint to) {
   const int a = map.source[index(from)];
   const int b = map.source[index(to)];
   if (a < 0 || b < 0) return {};
-  return map.axes *
+  return map.rest *
          (rest.position[static_cast<std::size_t>(b)] - rest.position[static_cast<std::size_t>(a)]);
 }
 
@@ -111,7 +111,7 @@ Vec3 place_of_hips(const RestFit& fit, const RawPose& source) {
 }
 
 Pose pose_from(const Skeleton& target, const RestFit& fit, const RawPose& source) {
-  const Quat back = glm::inverse(fit.map.axes);
+  const Quat back = glm::inverse(fit.map.rest);
   std::array<Quat, kJointCount> world{};
   for (std::size_t j = 0; j < kJointCount; ++j)
     if (fit.map.source[j] >= 0)

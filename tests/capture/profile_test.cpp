@@ -111,6 +111,48 @@ TEST(Profile, AxesAndUnitsDecideBetweenProfilesOfTheSameNames) {
   }
 }
 
+TEST(Profile, AxesAndUnitAreThoseOfTheRestPoseWhereTheProfileSaysOthers) {
+  const auto known = profiles();
+  const Quat z_up = glm::angleAxis(radians(90), kLeft);
+  const Quat axes[] = {yaw_rotation(kPi), yaw_rotation(kPi / 2), yaw_rotation(radians(45)), z_up,
+                       glm::angleAxis(radians(90), kForward) * z_up};
+  for (const float unit : {1.0f, 0.01f, 1 / 2.54f, 10.0f})
+    for (const Quat& turned : axes) {
+      RawClip clip = renamed({}, turned, unit);
+      const auto best = best_profile(known, clip);
+      ASSERT_TRUE(best) << to_string(best.error());
+      EXPECT_EQ(best->name, "mixamo");
+      const auto map = map_joints(*best, clip);
+      ASSERT_TRUE(map) << to_string(map.error());
+      EXPECT_NEAR(map->metres_per_unit * unit, 0.01f, 1e-6f);
+      EXPECT_LT(glm::distance(map->axes * (turned * kForward), kForward), 1e-4f);
+      EXPECT_LT(glm::distance(map->axes * (turned * kUp), kUp), 1e-4f);
+    }
+}
+
+TEST(Profile, UpIsWhereTheMotionStandsAndNotWhereItsRestPoseDid) {
+  const Quat z_up = glm::angleAxis(radians(90), kLeft);
+  RawClip clip = renamed({}, z_up, 1);
+  clip.frames = 40;
+  clip.frame_seconds = 0.01;
+  for (std::size_t f = 0; f < clip.frames; ++f)
+    for (const RawJoint& joint : clip.joints) {
+      clip.translation.push_back(joint.offset);
+      clip.rotation.emplace_back(1, 0, 0, 0);
+    }
+  const SkeletonProfile profile = best_profile(profiles(), clip).value();
+  EXPECT_LT(glm::distance(map_joints(profile, clip)->axes * Vec3(0, 0, 1), kUp), 1e-4f);
+  // The root stands it up along y, but for a while too short to say anything.
+  for (std::size_t f = 0; f < 38; ++f) clip.rotation[clip.at(f, 0)] = glm::inverse(z_up);
+  JointMap map = map_joints(profile, clip).value();
+  EXPECT_LT(glm::distance(map.axes * kUp, kUp), 1e-4f);
+  EXPECT_LT(glm::distance(map.rest * Vec3(0, 0, 1), kUp), 1e-4f);
+  // One who stands up along the rest pose often enough is believed.
+  for (std::size_t f = 20; f < 38; ++f) clip.rotation[clip.at(f, 0)] = Quat(1, 0, 0, 0);
+  map = map_joints(profile, clip).value();
+  EXPECT_LT(glm::distance(map.axes * Vec3(0, 0, 1), kUp), 1e-4f);
+}
+
 TEST(Profile, ADetachedJointNeedNotHangBelowItsBone) {
   SkeletonProfile profile;
   for (const SkeletonProfile& one : profiles())
@@ -183,8 +225,13 @@ TEST(Profile, AxesTurnTheFilesForwardToOurs) {
     EXPECT_LT(glm::distance(map->axes * Vec3(1, 0, 0), kForward), 1e-5f);
     EXPECT_LT(glm::distance(map->axes * Vec3(0, 0, -1), kLeft), 1e-5f);
     SkeletonProfile wrong = profile;
-    wrong.forward = -profile.forward;
-    EXPECT_FALSE(map_joints(wrong, clip));  // left would be right
+    wrong.forward = -profile.forward;  // left would be right
+    const auto righted = map_joints(wrong, clip);
+    ASSERT_TRUE(righted) << to_string(righted.error());
+    EXPECT_TRUE(map->as_written);
+    EXPECT_FALSE(righted->as_written);
+    EXPECT_LT(glm::distance(righted->axes * Vec3(1, 0, 0), kForward), 1e-5f);
+    EXPECT_LT(glm::distance(righted->axes * Vec3(0, 0, -1), kLeft), 1e-5f);
   }
 }
 
