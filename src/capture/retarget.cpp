@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "motion/ik.h"
 #include "motion/smooth.h"
 
 namespace ringcraft {
@@ -34,6 +35,66 @@ Vec3 rest_bone(const RawPose& rest, const JointMap& map, Joint from, Joint to) {
          (rest.position[static_cast<std::size_t>(b)] - rest.position[static_cast<std::size_t>(a)]);
 }
 
+// The axis of a limb's hinge (ik.h) in the rest pose, our axes: what its middle joint bends
+// about in the motion, seen from its upper bone. Zero for one that never bends.
+Vec3 hinge_of(const RawClip& raw, const JointMap& map, const Limb& limb) {
+  constexpr std::size_t kSamples = 200;
+  const auto joint = [&](Joint j) { return static_cast<std::size_t>(map.source[index(j)]); };
+  Vec3 sum{};
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const RawPose pose = raw_pose(raw, raw.seconds() * static_cast<double>(i) / kSamples);
+    const Vec3 middle = pose.position[joint(limb.middle)];
+    const Vec3 upper = normalized_or(middle - pose.position[joint(limb.root)], Vec3(0));
+    const Vec3 lower = normalized_or(pose.position[joint(limb.end)] - middle, Vec3(0));
+    sum += glm::inverse(pose.rotation[joint(limb.root)]) * glm::cross(upper, lower);
+  }
+  return map.rest * sum;
+}
+
+// Turns a bone and an axis across it to another bone and its axis.
+Quat bone_and_axis_between(Vec3 bone, Vec3 axis, Vec3 to_bone, Vec3 to_axis) {
+  const auto frame = [](Vec3 along, Vec3 about) {
+    const Vec3 x = glm::normalize(along);
+    const Vec3 y = normalized_or(about - x * glm::dot(x, about), Vec3(0));
+    return glm::mat3(x, y, glm::cross(x, y));
+  };
+  if (glm::length(glm::cross(to_bone, to_axis)) <= 1e-3f * glm::length(to_bone))
+    return rotation_between(bone, to_bone);
+  return glm::normalize(
+      glm::quat_cast(frame(to_bone, to_axis) * glm::transpose(frame(bone, axis))));
+}
+
+// A rest pose in which all bones lie one along the other, as of skeletons whose joints look along
+// their bones (LaFAN1's): how a bone is rolled there, the hinges in the motion tell.
+void lay_along(const RawClip& raw, const Skeleton& target, RestFit& fit) {
+  const JointMap& map = fit.map;
+  const RawPose rest = raw_rest_pose(raw);
+  const auto lay = [&](Joint bone, Vec3 ours, Vec3 hinge, Vec3 theirs, Vec3 their_hinge) {
+    fit.bone[index(bone)] = bone_and_axis_between(ours, hinge, theirs, their_hinge);
+  };
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Limb& limb : {arm(side), leg(side)}) {
+      const Vec3 their_hinge = hinge_of(raw, map, limb);
+      const Vec3 lower = rest_bone(rest, map, limb.middle, limb.end);
+      const Vec3 hinge = hinge_axis(limb);
+      lay(limb.root, target.offset[index(limb.middle)], hinge,
+          rest_bone(rest, map, limb.root, limb.middle), their_hinge);
+      lay(limb.middle, target.offset[index(limb.end)], hinge, lower, their_hinge);
+      fit.bone[index(limb.end)] = fit.bone[index(limb.middle)];
+      if (limb.root == arm(side).root) continue;
+      const Vec3 drawn = rest_bone(rest, map, limb.end, toes(side));
+      const Vec3 foot = glm::length(drawn) > 0 ? drawn : lower;
+      lay(limb.end, target.offset[index(toes(side))], hinge, foot, their_hinge);
+      lay(toes(side), kForward, hinge, foot, their_hinge);
+      fit.foot[at(side)] = glm::normalize(target.offset[index(toes(side))]);
+    }
+    const Joint root = arm(side).root;
+    const Joint shoulder = joint_at(static_cast<std::size_t>(kParent[index(root)]));
+    fit.bone[index(shoulder)] =
+        rotation_between(target.offset[index(root)], rest_bone(rest, map, shoulder, root));
+  }
+}
+
 Result<RestFit> lay_on(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target) {
   auto map = map_joints(profile, raw);
   if (!map) return tl::unexpected(map.error());
@@ -61,6 +122,7 @@ Result<RestFit> lay_on(const RawClip& raw, const SkeletonProfile& profile, const
                          glm::length(rest_bone(rest, *map, leg(side).middle, leg(side).end)));
   }
   fit.scale = target.leg_length() / leg_units;
+  if (!fit.map.stands) lay_along(raw, target, fit);
   return fit;
 }
 

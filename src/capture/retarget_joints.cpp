@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capture/retarget.h"
+#include "motion/ik.h"
 #include "motion/smooth.h"
 
 namespace ringcraft {
@@ -32,8 +33,7 @@ void turn_to_hinges(const Skeleton& target, Clip& clip) {
   for (const Side side : {Side::left, Side::right})
     for (const Limb& limb : {arm(side), leg(side)}) {
       const Vec3 bone = glm::normalize(target.offset[index(limb.middle)]);
-      const bool is_leg = limb.root == leg(side).root;
-      const Vec3 hinge = is_leg ? kLeft : (side == Side::left ? -kUp : kUp);
+      const Vec3 hinge = hinge_axis(limb);
       std::vector<float> twist(clip.frames.size());
       std::vector<float> trust(clip.frames.size());
       for (std::size_t i = 0; i < clip.frames.size(); ++i)

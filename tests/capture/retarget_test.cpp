@@ -117,6 +117,44 @@ TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
   EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
 }
 
+// LaFAN1's kind: every joint's x lies along its bone, so that a rest pose has all bones in a line.
+TEST(Retarget, ARestPoseWithAllBonesInALineIsLaidOnByTheHinges) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  // Turns a bone to x and an axis across it to z, rolled.
+  const auto lined = [](Vec3 bone, Vec3 axis, float roll) {
+    const Vec3 x = glm::normalize(bone);
+    const Vec3 z = glm::normalize(axis - x * glm::dot(x, axis));
+    return glm::angleAxis(roll, kLeft) *
+           glm::quat_cast(glm::transpose(glm::mat3(x, glm::cross(z, x), z)));
+  };
+  std::array<Quat, kJointCount> rest{};
+  rest.fill(lined(kUp, kLeft, 0));
+  for (const Side side : {Side::left, Side::right}) {
+    const Limb leg_joints = leg(side);
+    const Limb arm_joints = arm(side);
+    for (const Joint joint : {leg_joints.root, leg_joints.middle})
+      rest[index(joint)] = lined(-kUp, kLeft, radians(20));
+    rest[index(leg_joints.end)] = lined(skeleton.offset[index(toes(side))], kLeft, radians(20));
+    rest[index(toes(side))] = lined(kForward, kLeft, radians(20));
+    const Vec3 out = side == Side::left ? kLeft : -kLeft;
+    const auto shoulder = static_cast<std::size_t>(kParent[index(arm_joints.root)]);
+    rest[shoulder] = lined(skeleton.offset[index(arm_joints.root)], -kForward, 0);
+    for (const Joint joint : {arm_joints.root, arm_joints.middle, arm_joints.end})
+      rest[index(joint)] = lined(out, kUp, radians(130));
+  }
+  const auto clip = retarget(capture_of(skeleton, poses, rest, 100), own_names(), skeleton);
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
+  for (std::size_t i = 0; i < poses.size(); i += 10)
+    for (const Joint joint : {Joint::left_hand, Joint::right_foot, Joint::right_toes})
+      EXPECT_LT(glm::length(rotation_vector(
+                    glm::inverse(world_pose(skeleton, poses[i]).rotation[index(joint)]) *
+                    world_pose(skeleton, clip->frames[i]).rotation[index(joint)])),
+                radians(3))
+          << vrm_name(joint) << ' ' << i;
+}
+
 TEST(Retarget, AnyFrameRateBecomesOneFrameATick) {
   const Skeleton skeleton = canonical_skeleton();
   const std::vector<Pose> poses = standing_work(skeleton);
