@@ -10,6 +10,7 @@
 
 #include "base/document.h"
 #include "base/file.h"
+#include "capture/words.h"
 
 namespace ringcraft {
 namespace {
@@ -24,23 +25,29 @@ Vec3 axis_from(const std::string& text) {
   return axis;
 }
 
-std::string_view without_prefix(const SkeletonProfile& profile, std::string_view name) {
-  for (const std::string& prefix : profile.prefixes)
-    if (name.starts_with(prefix)) return name.substr(prefix.size());
-  return name;
+// A joint's name without its namespace, in lower case, without what files put between words: "Bip01
+// L Thigh" is "Bip01_L_Thigh", "UpperLeg_L" "upperleg.l".
+std::string plain_name(std::string_view name) {
+  const std::size_t space = name.rfind(':');
+  if (space != std::string_view::npos && space + 1 < name.size()) name.remove_prefix(space + 1);
+  std::string plain = lowered(name);
+  std::erase_if(plain,
+                [](char c) { return std::string_view(" _-.:").find(c) != std::string::npos; });
+  return plain;
 }
 
-// A joint named with the prefix goes before a bare one of the same name (MASS has both "Spine" and
+// A joint named with a prefix goes before a bare one of the same name (MASS has both "Spine" and
 // "Character1_Spine").
 int find_joint(const SkeletonProfile& profile, const RawClip& clip, const std::string& wanted) {
-  int bare = -1;
+  const std::string bare = plain_name(wanted);
+  int found = -1;
   for (std::size_t j = 0; j < clip.joints.size(); ++j) {
-    const std::string_view name = clip.joints[j].name;
-    if (without_prefix(profile, name) != wanted) continue;
-    if (name != wanted) return static_cast<int>(j);
-    if (bare < 0) bare = static_cast<int>(j);
+    const std::string name = plain_name(clip.joints[j].name);
+    for (const std::string& prefix : profile.prefixes)
+      if (name == plain_name(prefix) + bare) return static_cast<int>(j);
+    if (found < 0 && name == bare) found = static_cast<int>(j);
   }
-  return bare;
+  return found;
 }
 
 bool hangs_below(const RawClip& clip, int joint, int carrier) {

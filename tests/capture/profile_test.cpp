@@ -111,6 +111,69 @@ TEST(Profile, AxesAndUnitsDecideBetweenProfilesOfTheSameNames) {
   }
 }
 
+TEST(Profile, EveryProfileIsTheBestForItsOwnNames) {
+  const auto known = profiles();
+  for (const SkeletonProfile& own : known) {
+    const ForeignSkeleton form = foreign_skeleton(own);
+    const RawClip clip =
+        renamed(names_of(own), glm::inverse(form.axes), 0.01f / form.metres_per_unit);
+    const auto best = best_profile(known, clip);
+    ASSERT_TRUE(best) << own.name << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, own.name);
+  }
+}
+
+TEST(Profile, FamiliesAreKnownByTheirNames) {
+  const auto known = profiles();
+  const std::vector<std::pair<std::string, std::vector<std::string>>> families = {
+      {"lafan1", {"Hips", "UpLeg", "Leg", "Foot", "Toe", "Shoulder", "Arm", "ForeArm", "Hand"}},
+      {"xsens", {"Hips", "Hip", "Knee", "Ankle", "Toe", "Collar", "Shoulder", "Elbow", "Wrist"}},
+      {"xsens_mvn",
+       {"Pelvis", "UpperLeg", "LowerLeg", "Foot", "Toe", "Shoulder", "UpperArm", "ForeArm",
+        "Hand"}},
+      {"rokoko", {"Hips", "Thigh", "Shin", "Foot", "Toe", "Shoulder", "Arm", "ForeArm", "Hand"}},
+  };
+  const std::array<std::string, 9> ours = {"Hips",     "UpLeg", "Leg",     "Foot", "ToeBase",
+                                           "Shoulder", "Arm",   "ForeArm", "Hand"};
+  const std::vector<std::vector<std::string>> trunks = {{"Spine", "Spine1", "Spine2"},
+                                                        {"Chest", "Chest2", "Chest4"},
+                                                        {"L5", "L3", "T8"},
+                                                        {"Spine1", "Spine2", "Spine3"}};
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const auto& [name, words] = families[f];
+    std::vector<std::pair<std::string, std::string>> names = {{"Hips", words[0]}};
+    for (std::size_t i = 1; i < ours.size(); ++i)
+      for (const std::string side : {"Left", "Right"})
+        names.emplace_back(side + ours[i], side + words[i]);
+    const std::array<std::string, 3> spine = {"Spine", "Spine1", "Spine2"};
+    for (std::size_t i = 0; i < 3; ++i) names.emplace_back(spine[i], trunks[f][i]);
+    const auto best = best_profile(known, renamed(names, Quat(1, 0, 0, 0), 1));
+    ASSERT_TRUE(best) << name << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, name);
+  }
+}
+
+TEST(Profile, NamespacesCaseAndWhatStandsBetweenWordsMakeNoOtherName) {
+  const auto known = profiles();
+  for (const std::string prefix : {"mixamorig:", "mixamorig9:", "mixamorig_", "mixamorig",
+                                   "Scene:Boxer:", "Robot_", "Character1_"}) {
+    const auto best = best_profile(known, motion_builder(prefix, true));
+    ASSERT_TRUE(best) << prefix << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, "mixamo") << prefix;
+  }
+  const SkeletonProfile biped = profile_named("biped").value();
+  for (const std::string root : {"Bip01 ", "Bip001_", "bip01_"}) {
+    auto names = names_of(biped);
+    for (auto& [from, to] : names) {
+      to = root + to;
+      if (root.back() == '_') std::replace(to.begin(), to.end(), ' ', '_');
+    }
+    const auto best = best_profile(known, renamed(names, Quat(1, 0, 0, 0), 1));
+    ASSERT_TRUE(best) << root << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, "biped") << root;
+  }
+}
+
 TEST(Profile, AxesAndUnitAreThoseOfTheRestPoseWhereTheProfileSaysOthers) {
   const auto known = profiles();
   const Quat z_up = glm::angleAxis(radians(90), kLeft);
