@@ -83,6 +83,20 @@ std::array<int, kJointCount> found_joints(const SkeletonProfile& profile, const 
   return found;
 }
 
+// The joint that both arms hang on is the upper chest, whatever it is called: families differ in
+// how many joints a spine has, and what it says below the arms is not what carries them.
+void carry_arms(const RawClip& clip, std::array<int, kJointCount>& source) {
+  const auto joint = [&](Joint j) -> int& { return source[index(j)]; };
+  int carrier = joint(Joint::left_upper_arm);
+  while (carrier >= 0 && !hangs_below(clip, joint(Joint::right_upper_arm), carrier))
+    carrier = clip.joints[static_cast<std::size_t>(carrier)].parent;
+  const int below = joint(Joint::upper_chest) >= 0
+                        ? joint(Joint::upper_chest)
+                        : mapped_carrier(source, index(Joint::upper_chest));
+  if (carrier >= 0 && carrier != below && hangs_below(clip, carrier, below))
+    joint(Joint::upper_chest) = carrier;
+}
+
 // Ways through a body, file units and axes.
 struct RestLines {
   Vec3 trunk;  // from between the hip joints to between the shoulders
@@ -302,6 +316,7 @@ Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip)
           clip.file, fmt::format("joint {}", profile.source[j]),
           fmt::format("profile {} needs it for {}", profile.name, vrm_name(joint_at(j))),
           "use another profile");
+  carry_arms(clip, map.source);
   const auto unit = unit_of(profile, clip, map);
   if (!unit) return tl::unexpected(unit.error());
   map.metres_per_unit = *unit;

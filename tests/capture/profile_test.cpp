@@ -153,6 +153,25 @@ TEST(Profile, FamiliesAreKnownByTheirNames) {
   }
 }
 
+TEST(Profile, TheJointThatCarriesTheArmsIsTheUpperChestWhateverItsName) {
+  const auto known = profiles();
+  RawClip clip = motion_builder("", true);
+  const auto chest = [&] {
+    const auto best = best_profile(known, clip);
+    EXPECT_TRUE(best) << to_string(best.error());
+    return map_joints(*best, clip)->source[index(Joint::upper_chest)];
+  };
+  EXPECT_EQ(chest(), clip.find("Spine2"));
+  clip.joints[static_cast<std::size_t>(clip.find("Spine2"))].name = "Ribs";
+  EXPECT_EQ(chest(), clip.find("Ribs"));
+  // A fourth joint of the spine.
+  clip.joints[static_cast<std::size_t>(clip.find("Spine1"))].name = "Spine2";
+  clip.joints[static_cast<std::size_t>(clip.find("Spine"))].name = "Spine1";
+  EXPECT_EQ(chest(), clip.find("Ribs"));
+  EXPECT_EQ(map_joints(best_profile(known, clip).value(), clip)->source[index(Joint::chest)],
+            clip.find("Spine1"));
+}
+
 TEST(Profile, NamespacesCaseAndWhatStandsBetweenWordsMakeNoOtherName) {
   const auto known = profiles();
   for (const std::string prefix : {"mixamorig:", "mixamorig9:", "mixamorig_", "mixamorig",
