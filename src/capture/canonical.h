@@ -1,5 +1,5 @@
 #pragma once
-// A capture of any known format on the canonical skeleton: read, its junk first frame replaced, its
+// A capture of any known format on the canonical skeleton: read, its junk start replaced, its
 // skeleton recognised, retargeted.
 
 #include <filesystem>

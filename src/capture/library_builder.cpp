@@ -211,7 +211,7 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
   if (entry.contains("frame_rate")) source.frames_per_second = number_of(entry, "frame_rate");
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
-  replace_junk_first_frame(*raw);
+  replace_junk_start(*raw);
   for (const std::string& note : raw->notes) out.note(path.string() + ": " + note);
   auto profile = profile_for(manifest, pointer, entry, *raw);
   if (!profile) return tl::unexpected(profile.error());

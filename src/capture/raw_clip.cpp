@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace ringcraft {
 namespace {
 
@@ -68,24 +70,35 @@ RawPose raw_rest_pose(const RawClip& clip) {
   return out;
 }
 
-bool replace_junk_first_frame(RawClip& clip) {
-  constexpr std::size_t kCompared = 10;  // steps after the first
-  constexpr float kRatio = 8;  // a human start is never that much faster than what follows
-  if (clip.frames < kCompared + 2) return false;
-  float size = 0;  // of the skeleton, to tell a jump from stillness
+bool replace_junk_start(RawClip& clip) {
+  constexpr std::size_t kCompared = 10;  // steps after the jump
+  constexpr float kRatio = 8;       // a human start is never that much faster than what follows
+  constexpr float kJump = 0.1f;     // of the skeleton's size within a frame: 10 m/s at 100 Hz
+  constexpr float kStill = 0.002f;  // of the skeleton's size: a pose that is held
+  constexpr double kLongest = 3;    // s
+  float size = 0;                   // of the skeleton, to tell a jump from stillness
   const RawPose rest = raw_rest_pose(clip);
   for (const Vec3& p : rest.position) size = std::max(size, glm::distance(p, rest.position[0]));
-  std::vector<float> steps;
-  for (std::size_t f = 1; f <= kCompared; ++f) steps.push_back(largest_step(clip, f));
-  std::sort(steps.begin(), steps.end());
-  const float first = largest_step(clip, 0);
-  // One tenth of the body's half height within a frame: 10 m/s at 100 Hz.
-  if (first < 0.1f * size || first < kRatio * steps[kCompared / 2]) return false;
-  for (std::size_t j = 0; j < clip.joints.size(); ++j) {
-    clip.rotation[clip.at(0, j)] = clip.rotation[clip.at(1, j)];
-    clip.translation[clip.at(0, j)] = clip.translation[clip.at(1, j)];
+  std::size_t junk = 0;
+  for (std::size_t f = 0; f + kCompared + 1 < clip.frames; ++f) {
+    const float step = largest_step(clip, f);
+    if (static_cast<double>(f) * clip.frame_seconds > kLongest) break;
+    if (step < kStill * size) continue;
+    if (step < kJump * size) break;
+    std::vector<float> steps;
+    for (std::size_t k = 1; k <= kCompared; ++k) steps.push_back(largest_step(clip, f + k));
+    std::nth_element(steps.begin(), steps.begin() + kCompared / 2, steps.end());
+    if (step >= kRatio * steps[kCompared / 2]) junk = f + 1;
   }
-  clip.notes.emplace_back("frame 0 jumps (a T-pose?): replaced by frame 1");
+  if (junk == 0) return false;
+  for (std::size_t cell = 0; cell < clip.at(junk, 0); ++cell) {
+    const std::size_t kept = clip.at(junk, cell % clip.joints.size());
+    clip.rotation[cell] = clip.rotation[kept];
+    clip.translation[cell] = clip.translation[kept];
+  }
+  clip.notes.push_back(
+      fmt::format("a jump after frame {} (a T-pose?): what stands before is replaced by frame {}",
+                  junk - 1, junk));
   return true;
 }
 

@@ -53,9 +53,10 @@ RawPose raw_pose(const RawClip& clip, double time);
 // Rest pose: all rotations identity, the root where its offset says.
 RawPose raw_rest_pose(const RawClip& clip);
 
-// Many files begin with one frame of T-pose, seen as one jump far above the speed of the rest. Such
-// a frame is overwritten with its successor, so that times stay those of the file. Says whether it
-// did.
-bool replace_junk_first_frame(RawClip& clip);
+// Many files begin with a T-pose, of one frame or held, or with frames between it and the motion,
+// where they were resampled; it is seen as a jump far above the speed of the rest. Those frames are
+// overwritten with the first one after them, so that times stay those of the file. Says whether
+// there were any.
+bool replace_junk_start(RawClip& clip);
 
 }  // namespace ringcraft

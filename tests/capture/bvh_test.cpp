@@ -1,5 +1,6 @@
 #include "capture/bvh.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -188,10 +189,35 @@ TEST(Bvh, AJunkFirstFrameIsReplacedAndAnHonestOneKept) {
   for (int f = 1; f < 20; ++f) motion += "0 0 0 0 0 " + std::to_string(90 + f) + " 0 0 0\n";
   auto junk = parse_bvh(with_motion(motion), "junk.bvh");
   ASSERT_TRUE(junk);
-  EXPECT_TRUE(replace_junk_first_frame(*junk));
+  EXPECT_TRUE(replace_junk_start(*junk));
   expect_near(raw_pose(*junk, 0).position[1], raw_pose(*junk, 0.01).position[1]);
   EXPECT_EQ(junk->frames, 20u);
-  EXPECT_FALSE(replace_junk_first_frame(*junk));
+  EXPECT_FALSE(replace_junk_start(*junk));
+}
+
+TEST(Bvh, AHeldOrResampledJunkStartIsReplacedAndAHeldHonestOneKept) {
+  const auto arm_at = [](int degrees) {
+    return "0 0 0 0 0 " + std::to_string(degrees) + " 0 0 0\n";
+  };
+  const auto started = [&](const std::vector<int>& first) {
+    std::string motion = fmt::format("MOTION\nFrames: {}\nFrame Time: 0.01\n", first.size() + 20);
+    for (const int degrees : first) motion += arm_at(degrees);
+    for (int f = 0; f < 20; ++f) motion += arm_at(90 + f);
+    return parse_bvh(with_motion(motion), "junk.bvh").value();
+  };
+  for (const std::vector<int>& first : {std::vector<int>{0, 45}, std::vector<int>(12, 0)}) {
+    RawClip junk = started(first);
+    EXPECT_TRUE(replace_junk_start(junk));
+    const double begins = 0.01 * static_cast<double>(first.size());
+    for (double t = 0; t < begins; t += 0.01)
+      expect_near(raw_pose(junk, t).position[1], raw_pose(junk, begins).position[1]);
+    EXPECT_FALSE(replace_junk_start(junk));
+  }
+  // Stands, and then goes on at the pace of the rest, or moves before the jump.
+  RawClip honest = started(std::vector<int>(12, 89));
+  EXPECT_FALSE(replace_junk_start(honest));
+  RawClip moving = started({0, 1, 2, 3, 4});
+  EXPECT_FALSE(replace_junk_start(moving));
 }
 
 TEST(Bvh, EveryCaptureThatIsHereIsRead) {

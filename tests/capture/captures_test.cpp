@@ -29,7 +29,7 @@ Result<Retargeted> retargeted(const std::filesystem::path& path, const std::stri
   source.clip = clip;
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
-  replace_junk_first_frame(*raw);
+  replace_junk_start(*raw);
   static const auto profiles = read_profiles(assets_folder() / "profiles");
   if (!profiles) return tl::unexpected(profiles.error());
   auto profile = best_profile(*profiles, *raw);
