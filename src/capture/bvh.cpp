@@ -65,6 +65,15 @@ class Reader {
     if (const auto value = number(word)) return *value;
     return unexpected_word(word, "a number");
   }
+  // With or without a space between.
+  Result<float> read_number_after(std::string_view key) {
+    const std::string_view word = words_.next();
+    if (!lowered(word).starts_with(lowered(key)))
+      return unexpected_word(word, fmt::format("'{}'", key));
+    if (word.size() == key.size()) return read_number();
+    if (const auto value = number(word.substr(key.size()))) return *value;
+    return unexpected_word(word, fmt::format("'{}' and a number", key));
+  }
   Result<Vec3> read_vector() {
     Vec3 v;
     for (int i = 0; i < 3; ++i) {
@@ -156,9 +165,11 @@ class Reader {
   }
 
   Result<void> end_site(std::size_t joint) {
-    words_.rest_of_line();
-    std::string_view word = words_.next();
-    if (word != "{") return unexpected_word(word, "'{'");
+    std::string_view word;
+    if (!words_.rest_of_line().ends_with('{')) {
+      word = words_.next();
+      if (word != "{") return unexpected_word(word, "'{'");
+    }
     word = words_.next();
     if (lowered(word) != "offset") return unexpected_word(word, "OFFSET");
     auto v = read_vector();
@@ -172,9 +183,7 @@ class Reader {
   Result<void> motion_header() {
     std::string_view word = words_.next();
     if (lowered(word) != "motion") return unexpected_word(word, "MOTION");
-    word = words_.next();
-    if (lowered(word) != "frames:") return unexpected_word(word, "'Frames:'");
-    auto frames = read_number();
+    auto frames = read_number_after("Frames:");
     if (!frames) return tl::unexpected(frames.error());
     if (*frames < 1 || *frames != std::floor(*frames))
       return fault(words_.line(), fmt::format("Frames: {} is no count of frames", *frames));
@@ -187,10 +196,8 @@ class Reader {
     frames_said_ = static_cast<std::size_t>(*frames);
     word = words_.next();
     if (lowered(word) != "frame") return unexpected_word(word, "'Frame Time:'");
-    word = words_.next();
-    if (lowered(word) != "time:") return unexpected_word(word, "'Frame Time:'");
     const int line = words_.line();
-    auto time = read_number();
+    auto time = read_number_after("Time:");
     if (!time) return tl::unexpected(time.error());
     if (*time < 1e-4f || *time > 1.0f)
       return fault(line, fmt::format("a frame time of {} s is not between 0.0001 and 1", *time));

@@ -105,6 +105,18 @@ TEST(Bvh, ReadsWhatRealFilesDo) {
   EXPECT_EQ(clip->joints[1].name, "Bras cass\xC3\xA9 Arm");
 }
 
+TEST(Bvh, SpacesAndLineEndsBetweenWordsMayBeMissing) {
+  std::string text = with_motion("MOTION\nFrames:1\nFrame Time:0.1\n1 2 3 0 0 0 0 0 0\n");
+  const std::string site = "End Site\n    {";
+  text.replace(text.find(site), site.size(), "End Site {");
+  const auto clip = parse_bvh(text, "toy.bvh");
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  EXPECT_EQ(clip->frames, 1u);
+  EXPECT_NEAR(clip->frame_seconds, 0.1, 1e-6);
+  EXPECT_FALSE(
+      parse_bvh(with_motion("MOTION\nFrames:1x\nFrame Time: 1\n0 0 0 0 0 0 0 0 0\n"), "toy.bvh"));
+}
+
 struct BadFile {
   const char* name;
   std::string text;
