@@ -284,14 +284,13 @@ float score(const SkeletonProfile& profile, const RawClip& clip) {
 
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip) {
-  constexpr float kLeast = 0.8f;
   const SkeletonProfile* best = nullptr;
-  std::tuple<bool, float, bool, long> best_score{false, kLeast, false, -1};
+  std::tuple<bool, float, bool, long> best_score{};
   for (const SkeletonProfile& profile : profiles) {
     const auto names = std::count_if(profile.source.begin(), profile.source.end(),
                                      [](const std::string& name) { return !name.empty(); });
     const float share = score(profile, clip);
-    if (share < kLeast) continue;
+    if (share == 0) continue;
     const auto map = map_joints(profile, clip);
     const std::tuple<bool, float, bool, long> fit{map.has_value(), share, map && map->as_written,
                                                   static_cast<long>(names)};

@@ -52,7 +52,7 @@ Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& 
 // joint that should carry it. Zero when a limb is missing.
 float score(const SkeletonProfile& profile, const RawClip& clip);
 
-// The best fit of at least 0.8; among equals the one whose own axes and units fit, then the one
+// The best fit with all four limbs; among equals the one whose own axes and units fit, then the one
 // that names more joints, then the first. A profile whose legs have no human length comes last.
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip);

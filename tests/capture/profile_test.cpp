@@ -261,6 +261,15 @@ TEST(Profile, ScoreIsTheShareOfJointsFound) {
   }
 }
 
+TEST(Profile, FourLimbsAreEnoughToBeKnown) {
+  RawClip clip = motion_builder("", true);
+  for (const std::string name : {"Spine", "Spine1", "Neck", "LeftShoulder", "RightShoulder"})
+    clip.joints[static_cast<std::size_t>(clip.find(name))].name = "of_no_family_" + name;
+  const auto best = best_profile(profiles(), clip);
+  ASSERT_TRUE(best) << to_string(best.error());
+  EXPECT_EQ(best->name, "mixamo");
+}
+
 TEST(Profile, AJointUnderTheWrongCarrierDoesNotCount) {
   RawClip clip = motion_builder("mixamorig:", true);
   clip.joints[static_cast<std::size_t>(clip.find("mixamorig:LeftForeArm"))].parent =
