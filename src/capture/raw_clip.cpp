@@ -34,6 +34,22 @@ float largest_step(const RawClip& clip, std::size_t frame) {
   return largest;
 }
 
+// The largest angle by which a joint below the root is off the rest pose, rad.
+float off_rest(const RawClip& clip, std::size_t frame) {
+  float largest = 0;
+  for (std::size_t j = 1; j < clip.joints.size(); ++j)
+    largest = std::max(largest, glm::length(rotation_vector(clip.rotation[clip.at(frame, j)])));
+  return largest;
+}
+
+// Frames of exactly the rest pose before one that is far from it.
+std::size_t resting_start(const RawClip& clip) {
+  constexpr float kAtRest = radians(2), kFar = radians(20);
+  std::size_t count = 0;
+  while (count < clip.frames && off_rest(clip, count) < kAtRest) ++count;
+  return count < clip.frames && off_rest(clip, count) > kFar ? count : 0;
+}
+
 }  // namespace
 
 int RawClip::find(std::string_view name) const {
@@ -79,7 +95,7 @@ bool replace_junk_start(RawClip& clip) {
   float size = 0;                   // of the skeleton, to tell a jump from stillness
   const RawPose rest = raw_rest_pose(clip);
   for (const Vec3& p : rest.position) size = std::max(size, glm::distance(p, rest.position[0]));
-  std::size_t junk = 0;
+  std::size_t junk = resting_start(clip);
   for (std::size_t f = 0; f + kCompared + 1 < clip.frames; ++f) {
     const float step = largest_step(clip, f);
     if (static_cast<double>(f) * clip.frame_seconds > kLongest) break;
@@ -88,7 +104,7 @@ bool replace_junk_start(RawClip& clip) {
     std::vector<float> steps;
     for (std::size_t k = 1; k <= kCompared; ++k) steps.push_back(largest_step(clip, f + k));
     std::nth_element(steps.begin(), steps.begin() + kCompared / 2, steps.end());
-    if (step >= kRatio * steps[kCompared / 2]) junk = f + 1;
+    if (step >= kRatio * steps[kCompared / 2]) junk = std::max(junk, f + 1);
   }
   if (junk == 0) return false;
   for (std::size_t cell = 0; cell < clip.at(junk, 0); ++cell) {

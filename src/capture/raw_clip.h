@@ -54,9 +54,9 @@ RawPose raw_pose(const RawClip& clip, double time);
 RawPose raw_rest_pose(const RawClip& clip);
 
 // Many files begin with a T-pose, of one frame or held, or with frames between it and the motion,
-// where they were resampled; it is seen as a jump far above the speed of the rest. Those frames are
-// overwritten with the first one after them, so that times stay those of the file. Says whether
-// there were any.
+// where they were resampled; it is seen as a jump far above the speed of the rest, or as the rest
+// pose itself. Those frames are overwritten with the first one after them, so that times stay those
+// of the file. Says whether there were any.
 bool replace_junk_start(RawClip& clip);
 
 }  // namespace ringcraft

@@ -225,6 +225,15 @@ TEST(Bvh, AHeldOrResampledJunkStartIsReplacedAndAHeldHonestOneKept) {
       expect_near(raw_pose(junk, t).position[1], raw_pose(junk, begins).position[1]);
     EXPECT_FALSE(replace_junk_start(junk));
   }
+  // The rest pose, at 24 frames a second: the motion is not slower by much than the jump.
+  std::string fast = "MOTION\nFrames: 22\nFrame Time: 0.041667\n" + arm_at(0) + arm_at(0);
+  for (int f = 0; f < 20; ++f) fast += fmt::format("0 0 0 0 0 {} 0 0 {}\n", 15 * f, 60 + 15 * f);
+  RawClip few = parse_bvh(with_motion(fast), "few.bvh").value();
+  EXPECT_TRUE(replace_junk_start(few));
+  for (const double t : {0.0, few.frame_seconds})
+    EXPECT_LT(glm::length(rotation_vector(glm::inverse(raw_pose(few, t).rotation[1]) *
+                                          raw_pose(few, 2 * few.frame_seconds).rotation[1])),
+              1e-3f);
   // Stands, and then goes on at the pace of the rest, or moves before the jump.
   RawClip honest = started(std::vector<int>(12, 89));
   EXPECT_FALSE(replace_junk_start(honest));
