@@ -99,31 +99,43 @@ void carry_arms(const RawClip& clip, std::array<int, kJointCount>& source) {
 
 // Ways through a body, file units and axes.
 struct RestLines {
-  Vec3 trunk;  // from between the hip joints to between the shoulders
-  Vec3 legs;   // from between the hip joints to between the ankles
-  Vec3 hips;   // from the right hip joint to the left one
+  Vec3 trunk;                // from between the hip joints to between the shoulders
+  std::array<Vec3, 2> legs;  // from the hip joint to the ankle
+  Vec3 hips;                 // from the right hip joint to the left one
 };
 
+Vec3 place_of(const RawPose& pose, const JointMap& map, Joint joint) {
+  return pose.position[static_cast<std::size_t>(map.source[index(joint)])];
+}
+
 Vec3 middle(const RawPose& pose, const JointMap& map, Joint left, Joint right) {
-  const auto place = [&](Joint joint) {
-    return pose.position[static_cast<std::size_t>(map.source[index(joint)])];
-  };
-  return 0.5f * (place(left) + place(right));
+  return 0.5f * (place_of(pose, map, left) + place_of(pose, map, right));
 }
 
 RestLines rest_lines(const RawClip& clip, const JointMap& map) {
   const RawPose rest = raw_rest_pose(clip);
-  const Vec3 hips = middle(rest, map, Joint::left_upper_leg, Joint::right_upper_leg);
-  const Vec3 left = middle(rest, map, Joint::left_upper_leg, Joint::left_upper_leg);
-  return {middle(rest, map, Joint::left_upper_arm, Joint::right_upper_arm) - hips,
-          middle(rest, map, Joint::left_foot, Joint::right_foot) - hips, 2.0f * (left - hips)};
+  const auto way = [&](Joint from, Joint to) {
+    return place_of(rest, map, to) - place_of(rest, map, from);
+  };
+  return {middle(rest, map, Joint::left_upper_arm, Joint::right_upper_arm) -
+              middle(rest, map, Joint::left_upper_leg, Joint::right_upper_leg),
+          {way(Joint::left_upper_leg, Joint::left_foot),
+           way(Joint::right_upper_leg, Joint::right_foot)},
+          way(Joint::right_upper_leg, Joint::left_upper_leg)};
+}
+
+// Whether both legs point down where `up` is up; they may stand astride.
+bool stands_along(Vec3 up, const RestLines& lines) {
+  constexpr float kStraight = 0.5f;  // cosine
+  return std::all_of(lines.legs.begin(), lines.legs.end(), [&](Vec3 leg) {
+    return glm::dot(up, leg) < -kStraight * glm::length(up) * glm::length(leg);
+  });
 }
 
 // Whether the rest pose stands in these axes, its left on the left.
 bool agrees(const Quat& axes, const RestLines& lines) {
-  constexpr float kStraight = 0.5f;  // cosine: legs may stand astride
-  constexpr float kTurned = 0.87f;   // of 30 degrees
-  return (axes * lines.legs).y < -kStraight * glm::length(lines.legs) &&
+  constexpr float kTurned = 0.87f;  // of 30 degrees
+  return stands_along(glm::inverse(axes) * kUp, lines) &&
          (axes * lines.hips).x > kTurned * glm::length(lines.hips);
 }
 
@@ -177,11 +189,9 @@ Vec3 up_of_motion(const RawClip& clip, const JointMap& map, Vec3 said) {
 // The profile's own units, then those that files come in.
 Result<float> unit_of(const SkeletonProfile& profile, const RawClip& clip, const JointMap& map) {
   const RawPose rest = raw_rest_pose(clip);
-  const auto place = [&](Joint joint) {
-    return rest.position[static_cast<std::size_t>(map.source[index(joint)])];
-  };
-  const float leg = glm::distance(place(Joint::left_upper_leg), place(Joint::left_lower_leg)) +
-                    glm::distance(place(Joint::left_lower_leg), place(Joint::left_foot));
+  const Vec3 knee = place_of(rest, map, Joint::left_lower_leg);
+  const float leg = glm::distance(place_of(rest, map, Joint::left_upper_leg), knee) +
+                    glm::distance(knee, place_of(rest, map, Joint::left_foot));
   std::vector<float> units = profile.metres_per_unit;
   units.insert(units.end(), std::begin(kUnits), std::end(kUnits));
   for (const float unit : units)
@@ -320,9 +330,9 @@ Result<JointMap> map_joints(const SkeletonProfile& profile, const RawClip& clip)
   if (!unit) return tl::unexpected(unit.error());
   map.metres_per_unit = *unit;
   const RestLines lines = rest_lines(clip, map);
-  map.stands = glm::dot(lines.trunk, lines.legs) < 0;
+  map.stands = stands_along(lines.trunk, lines);
   map.rest = axes_of(profile);
-  map.as_written = agrees(map.rest, lines);
+  map.as_written = map.stands && agrees(map.rest, lines);
   if (!map.as_written) {
     const auto rest = axes_of_rest(lines);
     if (!rest)

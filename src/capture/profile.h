@@ -30,7 +30,7 @@ struct JointMap {
   float metres_per_unit = 1;
   Quat axes{1, 0, 0, 0};    // turns the file's axes to ours
   Quat rest{1, 0, 0, 0};    // turns those of its rest pose, which may lie where the motion stands
-  bool stands = true;       // in its rest pose; else its legs lie along its trunk
+  bool stands = true;       // in its rest pose; else its bones lie one along the other
   bool as_written = false;  // axes and unit are the profile's own
 };
 

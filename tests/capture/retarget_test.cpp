@@ -117,8 +117,11 @@ TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
   EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
 }
 
-// LaFAN1's kind: every joint's x lies along its bone, so that a rest pose has all bones in a line.
-TEST(Retarget, ARestPoseWithAllBonesInALineIsLaidOnByTheHinges) {
+// LaFAN1's kind: every joint's x lies along its bone, so that a rest pose has all bones in a line;
+// `mirrored`, as of mannequins: those of the right limbs look the other way (and one thigh a little
+// aside).
+void expect_lined_bones_to_do(bool mirrored) {
+  SCOPED_TRACE(mirrored);
   const Skeleton skeleton = canonical_skeleton();
   const std::vector<Pose> poses = standing_work(skeleton);
   // Turns a bone to x and an axis across it to z, rolled.
@@ -131,17 +134,21 @@ TEST(Retarget, ARestPoseWithAllBonesInALineIsLaidOnByTheHinges) {
   std::array<Quat, kJointCount> rest{};
   rest.fill(lined(kUp, kLeft, 0));
   for (const Side side : {Side::left, Side::right}) {
+    const float way = mirrored && side == Side::right ? -1.0f : 1.0f;
     const Limb leg_joints = leg(side);
     const Limb arm_joints = arm(side);
     for (const Joint joint : {leg_joints.root, leg_joints.middle})
-      rest[index(joint)] = lined(-kUp, kLeft, radians(20));
-    rest[index(leg_joints.end)] = lined(skeleton.offset[index(toes(side))], kLeft, radians(20));
-    rest[index(toes(side))] = lined(kForward, kLeft, radians(20));
+      rest[index(joint)] = lined(-way * kUp, kLeft, radians(20));
+    if (mirrored && side == Side::left)
+      rest[index(leg_joints.root)] = yaw_rotation(radians(10)) * rest[index(leg_joints.root)];
+    rest[index(leg_joints.end)] =
+        lined(way * skeleton.offset[index(toes(side))], kLeft, radians(20));
+    rest[index(toes(side))] = lined(way * kForward, kLeft, radians(20));
     const Vec3 out = side == Side::left ? kLeft : -kLeft;
     const auto shoulder = static_cast<std::size_t>(kParent[index(arm_joints.root)]);
     rest[shoulder] = lined(skeleton.offset[index(arm_joints.root)], -kForward, 0);
     for (const Joint joint : {arm_joints.root, arm_joints.middle, arm_joints.end})
-      rest[index(joint)] = lined(out, kUp, radians(130));
+      rest[index(joint)] = lined(way * out, kUp, radians(130));
   }
   const auto clip = retarget(capture_of(skeleton, poses, rest, 100), own_names(), skeleton);
   ASSERT_TRUE(clip) << to_string(clip.error());
@@ -153,6 +160,11 @@ TEST(Retarget, ARestPoseWithAllBonesInALineIsLaidOnByTheHinges) {
                     world_pose(skeleton, clip->frames[i]).rotation[index(joint)])),
                 radians(3))
           << vrm_name(joint) << ' ' << i;
+}
+
+TEST(Retarget, ARestPoseWithAllBonesInALineIsLaidOnByTheHinges) {
+  expect_lined_bones_to_do(false);
+  expect_lined_bones_to_do(true);
 }
 
 TEST(Retarget, AnyFrameRateBecomesOneFrameATick) {
