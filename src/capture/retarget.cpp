@@ -35,18 +35,38 @@ Vec3 rest_bone(const RawPose& rest, const JointMap& map, Joint from, Joint to) {
          (rest.position[static_cast<std::size_t>(b)] - rest.position[static_cast<std::size_t>(a)]);
 }
 
+constexpr std::size_t kSamples = 200;  // of the motion, that tell how bones are rolled
+
+RawPose sampled(const RawClip& raw, std::size_t i) {
+  return raw_pose(raw, raw.seconds() * static_cast<double>(i) / kSamples);
+}
+
 // The axis of a limb's hinge (ik.h) in the rest pose, our axes: what its middle joint bends
 // about in the motion, seen from its upper bone. Zero for one that never bends.
 Vec3 hinge_of(const RawClip& raw, const JointMap& map, const Limb& limb) {
-  constexpr std::size_t kSamples = 200;
   const auto joint = [&](Joint j) { return static_cast<std::size_t>(map.source[index(j)]); };
   Vec3 sum{};
   for (std::size_t i = 0; i < kSamples; ++i) {
-    const RawPose pose = raw_pose(raw, raw.seconds() * static_cast<double>(i) / kSamples);
+    const RawPose pose = sampled(raw, i);
     const Vec3 middle = pose.position[joint(limb.middle)];
     const Vec3 upper = normalized_or(middle - pose.position[joint(limb.root)], Vec3(0));
     const Vec3 lower = normalized_or(pose.position[joint(limb.end)] - middle, Vec3(0));
     sum += glm::inverse(pose.rotation[joint(limb.root)]) * glm::cross(upper, lower);
+  }
+  return map.rest * sum;
+}
+
+// Where the chest looks, our axes, seen from a collar bone in the rest pose: the mean of the
+// motion.
+Vec3 forward_of_chest(const RawClip& raw, const JointMap& map, Joint shoulder) {
+  const int own = map.source[index(shoulder)];
+  const int chest = map.source[index(Joint::upper_chest)];
+  if (own < 0 || chest < 0) return {};
+  Vec3 sum{};
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const RawPose pose = sampled(raw, i);
+    sum += glm::inverse(pose.rotation[static_cast<std::size_t>(own)]) *
+           (pose.rotation[static_cast<std::size_t>(chest)] * (glm::inverse(map.rest) * kForward));
   }
   return map.rest * sum;
 }
@@ -90,8 +110,8 @@ void lay_along(const RawClip& raw, const Skeleton& target, RestFit& fit) {
     }
     const Joint root = arm(side).root;
     const Joint shoulder = joint_at(static_cast<std::size_t>(kParent[index(root)]));
-    fit.bone[index(shoulder)] =
-        rotation_between(target.offset[index(root)], rest_bone(rest, map, shoulder, root));
+    lay(shoulder, target.offset[index(root)], kForward, rest_bone(rest, map, shoulder, root),
+        forward_of_chest(raw, map, shoulder));
   }
 }
 

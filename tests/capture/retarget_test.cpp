@@ -146,7 +146,7 @@ void expect_lined_bones_to_do(bool mirrored) {
     rest[index(toes(side))] = lined(way * kForward, kLeft, radians(20));
     const Vec3 out = side == Side::left ? kLeft : -kLeft;
     const auto shoulder = static_cast<std::size_t>(kParent[index(arm_joints.root)]);
-    rest[shoulder] = lined(skeleton.offset[index(arm_joints.root)], -kForward, 0);
+    rest[shoulder] = lined(skeleton.offset[index(arm_joints.root)], -kForward, radians(70));
     for (const Joint joint : {arm_joints.root, arm_joints.middle, arm_joints.end})
       rest[index(joint)] = lined(way * out, kUp, radians(130));
   }
@@ -154,7 +154,8 @@ void expect_lined_bones_to_do(bool mirrored) {
   ASSERT_TRUE(clip) << to_string(clip.error());
   EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
   for (std::size_t i = 0; i < poses.size(); i += 10)
-    for (const Joint joint : {Joint::left_hand, Joint::right_foot, Joint::right_toes})
+    for (const Joint joint :
+         {Joint::left_shoulder, Joint::left_hand, Joint::right_foot, Joint::right_toes})
       EXPECT_LT(glm::length(rotation_vector(
                     glm::inverse(world_pose(skeleton, poses[i]).rotation[index(joint)]) *
                     world_pose(skeleton, clip->frames[i]).rotation[index(joint)])),
