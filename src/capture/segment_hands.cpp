@@ -220,7 +220,8 @@ std::vector<FoundBlow> hand_blows(const Measures& measures, const SegmentSetting
       std::min({settings.straight_speed, settings.bent_speed, settings.block_speed});
   for (const Side side : kSides) {
     std::vector<Stroke> strokes;
-    for (const Tick peak : peaks_of(measures.hand[index(side)].speed, least, kPeakAround)) {
+    for (const Tick peak :
+         swings_of(measures.hand[index(side)].speed, least, kPeakAround, settings)) {
       const Stroke stroke = stroke_of(measures, side, peak);
       if (classified(measures, stroke, settings)) strokes.push_back(stroke);
     }

@@ -133,7 +133,7 @@ std::vector<FoundBlow> kicks(const Measures& measures, const SegmentSettings& se
   std::vector<FoundBlow> blows;
   for (const Side side : kSides) {
     for (const Tick peak :
-         peaks_of(measures.foot[index(side)].speed, settings.kick_speed, kPeakAround)) {
+         swings_of(measures.foot[index(side)].speed, settings.kick_speed, kPeakAround, settings)) {
       const Swing swing = swing_of(measures, side, peak);
       if (!is_kick(measures, swing, settings)) continue;
       FoundBlow blow = blow_of(measures, swing, settings);

@@ -86,6 +86,20 @@ std::vector<Tick> peaks_of(const std::vector<float>& values, float least, Tick a
   return out;
 }
 
+std::vector<Tick> swings_of(const std::vector<float>& speed, float least, Tick around,
+                            const SegmentSettings& settings) {
+  constexpr Tick kAround = 12;
+  const auto count = static_cast<Tick>(speed.size());
+  std::vector<Tick> peaks = peaks_of(speed, least, around);
+  std::erase_if(peaks, [&](Tick peak) {
+    Tick fast = 0;  // ticks; what lies outside of the capture may have been
+    for (Tick t = peak - kAround; t <= peak + kAround; ++t)
+      if (t < 1 || t + 1 >= count || speed[at(t)] >= 0.25f * speed[at(peak)]) ++fast;
+    return static_cast<float>(fast) * kTickSeconds < settings.shortest;
+  });
+  return peaks;
+}
+
 Measures measured(const Skeleton& skeleton, const Clip& capture) {
   Measures m;
   m.last = capture.length();

@@ -40,6 +40,7 @@ struct SegmentSettings {
   float round_turn = 1.25f;   // rad the hips turn in 0.6 s in a roundhouse
   float spin_turn = 4.2f;     // rad the hips turn in 1.3 s in a spin
   // The body.
+  float shortest = 0.1f;    // s at a quarter of its peak speed or more: shorter is a cut
   float standing = 0.72f;   // share of the usual height of the hips under which nobody strikes
   float travelling = 1.5f;  // m/s of the hips over the ground: faster is running, not boxing
 };
@@ -88,6 +89,11 @@ inline const char* word(Side side) {
 
 // Ticks of local peaks of at least `least`, highest within `around` ticks to both sides.
 std::vector<Tick> peaks_of(const std::vector<float>& values, float least, Tick around);
+
+// Those of a limb's peaks of speed that somebody swung: where two takes were put together a hand is
+// elsewhere at once.
+std::vector<Tick> swings_of(const std::vector<float>& speed, float least, Tick around,
+                            const SegmentSettings& settings);
 
 // Blows of hands and feet in order of time, none of which overlap on one limb.
 std::vector<FoundBlow> hand_blows(const Measures& measures, const SegmentSettings& settings);

@@ -91,6 +91,7 @@ const std::vector<Threshold> kThresholds = {{"straight_speed", &SegmentSettings:
                                             {"kick_ahead", &SegmentSettings::kick_ahead},
                                             {"round_turn", &SegmentSettings::round_turn},
                                             {"spin_turn", &SegmentSettings::spin_turn},
+                                            {"shortest", &SegmentSettings::shortest},
                                             {"standing", &SegmentSettings::standing},
                                             {"travelling", &SegmentSettings::travelling}};
 

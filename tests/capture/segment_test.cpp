@@ -208,6 +208,23 @@ TEST(Segmentation, AnythingShortOrStillIsNoAction) {
   EXPECT_TRUE(segment(skeleton, still, "still").blows.empty());
 }
 
+TEST(Segmentation, AHandThatIsElsewhereAtOnceStrikesNobody) {
+  const auto actions = compile_sheet_file(assets_folder() / "kickboxing/sheets/punches.toml");
+  ASSERT_TRUE(actions) << to_string(actions.error());
+  const auto jab = std::find_if(actions->begin(), actions->end(),
+                                [](const Action& action) { return action.name == "jab"; });
+  ASSERT_NE(jab, actions->end());
+  EXPECT_EQ(segment(canonical_skeleton(), jab->clip, "jab").blows.size(), 1u);
+  Clip spliced;
+  for (const Tick tick : {0, jab->strikes.front().active_end})
+    for (int i = 0; i < 60; ++i) {
+      spliced.frames.push_back(jab->clip.at(tick));
+      spliced.root.emplace_back();
+      spliced.contacts.push_back({true, true});
+    }
+  EXPECT_TRUE(segment(canonical_skeleton(), spliced, "spliced").blows.empty());
+}
+
 // The sheets' punches and kicks are authored: their strikes are known without an eye.
 TEST(Segmentation, FindsTheStrikesOfTheTechniqueSheets) {
   const Skeleton skeleton = canonical_skeleton();
