@@ -120,4 +120,10 @@ MotionLibrary MotionLibrary::with(std::vector<Action> actions) const {
       LibraryParts{name_, std::move(actions), machine_, {}, dropped_, notes_, switches_});
 }
 
+MotionLibrary MotionLibrary::with_fits(
+    std::vector<std::shared_ptr<const MotionLibrary>> fits) const {
+  return MotionLibrary(LibraryParts{name_, actions_, machine_, graph_, dropped_, notes_, switches_,
+                                    std::move(fits)});
+}
+
 }  // namespace ringcraft

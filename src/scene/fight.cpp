@@ -69,9 +69,7 @@ MotionLibrary library_for(const SceneFile& scene, MotionLibrary library) {
   if (std::none_of(of_fighter.begin(), of_fighter.end(), [](const auto& fit) { return fit; })) {
     return base;
   }
-  return MotionLibrary(LibraryParts{base.name(), base.actions(), base.machine(), base.graph(),
-                                    base.dropped(), base.notes(), base.switches(),
-                                    std::move(of_fighter)});
+  return base.with_fits(std::move(of_fighter));
 }
 
 // The main path. Decisions fall when an action ends.

@@ -30,19 +30,20 @@ std::vector<BodyCapsules> capsules_of(const MotionLibrary& library, const BodyMo
 class Sweep {
  public:
   explicit Sweep(const StrikeQuery& query)
-      : strike_(query.library.action(query.attack).strikes.front()) {
+      : strike_(query.library.of(StrikeQuery::kAttacker).action(query.attack).strikes.front()) {
+    const MotionLibrary& struck = query.library.of(StrikeQuery::kStruck);
     Launch target;
     target.action = query.target_action;
-    const Placement root = root_at(query.library, target, query.target_age, query.target.scale);
+    const Placement root = root_at(struck, target, query.target_age, query.target.scale);
     forward_ = root.forward();
     Launch attacker;
     attacker.action = query.attack;
     attacker.placement = attacker_placement(root, 0);
     window_ = strike_.active_end - strike_.active_begin;
-    target_ = capsules_of(query.library, query.target, target, query.target_age - window_,
-                          query.target_age);
-    attacker_ = capsules_of(query.library, query.attacker, attacker, strike_.active_begin - 1,
-                            strike_.active_end - 1);
+    target_ =
+        capsules_of(struck, query.target, target, query.target_age - window_, query.target_age);
+    attacker_ = capsules_of(query.library.of(StrikeQuery::kAttacker), query.attacker, attacker,
+                            strike_.active_begin - 1, strike_.active_end - 1);
   }
 
   // The contact, if the first one comes exactly at the age of `active_begin` + `at`.

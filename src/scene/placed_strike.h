@@ -22,7 +22,8 @@ struct StrikePlace {
 
 // One fighter in an action at an age, struck by another's.
 struct StrikeQuery {
-  const MotionLibrary& library;
+  static constexpr FighterId kStruck{0}, kAttacker{1};
+  const MotionLibrary& library;  // as each of the two does it (MotionLibrary::of)
   const BodyModel& target;
   const BodyModel& attacker;
   ActionId target_action;

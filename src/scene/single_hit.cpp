@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "motion/strike_fit.h"
 #include "physics/response.h"
 #include "scene/answer.h"
+#include "scene/fitted_library.h"
 #include "scene/hit_replay.h"
 #include "scene/placed_strike.h"
 #include "scene/stage.h"
@@ -17,7 +19,7 @@ namespace ringcraft {
 namespace {
 
 constexpr Tick kAfterwards = kTicksPerSecond;  // shown after the response
-constexpr FighterId kStruck{0}, kAttacker{1};
+constexpr FighterId kStruck = StrikeQuery::kStruck, kAttacker = StrikeQuery::kAttacker;
 constexpr float kFacingTurn = radians(15);  // most, toward the other, in one idle
 constexpr std::size_t kMostTried = 40;      // places whose whole motion is tried
 constexpr std::int32_t kNoHealth = std::numeric_limits<std::int32_t>::max();  // none is counted
@@ -224,11 +226,11 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
   HitAnswer answer;
   answer.bodies = {make_body(query.body), make_body(query.attacker)};
   const ActionId attack = library.find(query.strike);
-  const Strike& strike = library.action(attack).strikes.front();
+  const Strike& strike = library.of(kAttacker).action(attack).strikes.front();
   const Tick hit = std::max(cut.at, place.age);
   Launch target;
   target.action = cut.action;
-  const Placement root = root_at(library, target, cut.at, answer.bodies[0].scale);
+  const Placement root = root_at(library.of(kStruck), target, cut.at, answer.bodies[0].scale);
 
   Showing showing(library, answer.bodies);
   Stage& stage = showing.stage();
@@ -260,16 +262,28 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
 
 // Impulse times speed of the blow as the clips alone would have it, J: what an attacker looks for.
 float work_of(const StrikeQuery& where, const StrikePlace& place) {
+  const MotionLibrary &struck_does = where.library.of(kStruck),
+                      &attacker_does = where.library.of(kAttacker);
   Launch target, attacker;
   target.action = where.target_action;
   attacker.action = where.attack;
   attacker.placement = attacker_placement(
-      root_at(where.library, target, where.target_age, where.target.scale), place.distance);
-  const Pose struck = pose_at(where.library, target, where.target_age, where.target.scale);
-  const Pose striking = pose_at(where.library, attacker, place.age, where.attacker.scale);
+      root_at(struck_does, target, where.target_age, where.target.scale), place.distance);
+  const Pose struck = pose_at(struck_does, target, where.target_age, where.target.scale);
+  const Pose striking = pose_at(attacker_does, attacker, place.age, where.attacker.scale);
   const StrikeKind kind = where.library.action(where.attack).strikes.front().kind;
   const Blow blow = blow_of(where.attacker, striking, where.target, struck, place.contact, kind);
   return glm::length(blow.impulse) * blow.speed;
+}
+
+// Bodies of unequal height do what is fitted to the other, as in a fight (library_for).
+std::optional<MotionLibrary> fitted_pair(const MotionLibrary& library, const HitQuery& query) {
+  const float ratio = query.body.height / query.attacker.height;  // as the attacker sees it
+  if (as_tall(ratio) && as_tall(1 / ratio)) return std::nullopt;
+  const auto fit = [&](float seen) {
+    return std::make_shared<const MotionLibrary>(fitted_library(library, seen));
+  };
+  return library.with_fits({fit(1 / ratio), fit(ratio)});
 }
 
 Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& query,
@@ -282,9 +296,15 @@ Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& 
                     query.strike, library.name()),
         "`ringcraft library inspect` lists the attacks");
   }
+  if (library.of(kAttacker).action(attack).left_out) {
+    return usage_error("", "--strike",
+                       fmt::format("{} cannot be thrown by a body of {:.2f} m at one of {:.2f} m",
+                                   query.strike, query.attacker.height, query.body.height),
+                       "choose another attack, or bodies that are more alike");
+  }
   const BodyModel target = make_body(query.body), attacker = make_body(query.attacker);
   const StrikeQuery where{library, target, attacker, cut.action, cut.at, attack};
-  const Strike& strike = library.action(attack).strikes.front();
+  const Strike& strike = library.of(kAttacker).action(attack).strikes.front();
   struct Candidate {
     Met met;
     float work;
@@ -321,7 +341,10 @@ Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& 
 Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& query) {
   const auto cut = interrupted_action(library, query);
   if (!cut) return tl::unexpected(cut.error());
-  if (!query.strike.empty()) return simulate_strike(library, query, *cut);
+  if (!query.strike.empty()) {
+    const auto pair = fitted_pair(library, query);
+    return simulate_strike(pair ? *pair : library, query, *cut);
+  }
   HitAnswer answer;
   answer.bodies = {make_body(query.body)};
   Showing showing(library, answer.bodies);

@@ -354,6 +354,26 @@ TEST(PlacedStrike, FromAGivenDistanceMeetsOrSaysFromWhereItWould) {
   EXPECT_THAT(far.error().what, HasSubstr("from 2.5 m"));
 }
 
+TEST(PlacedStrike, OfAnAttackerOfAnotherHeightIsFittedAsInAFight) {
+  HitQuery hit = query();
+  hit.strike = "jab";
+  for (const auto& [attacker, struck] : {std::pair{1.94f, 1.62f}, std::pair{1.62f, 1.94f}}) {
+    hit.attacker.height = attacker;
+    hit.body.height = struck;
+    const auto answer = simulate_hit(default_library(), hit);
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    EXPECT_EQ(answer->input.blow.part, Part::head);
+    EXPECT_GT(glm::length(answer->input.blow.impulse), 12) << attacker;  // as at one's own height
+  }
+  hit.strike = "roundhouse_rear_high";
+  hit.attacker.height = 1.55f;
+  hit.body.height = 2.05f;
+  const auto answer = simulate_hit(default_library(), hit);
+  ASSERT_FALSE(answer);
+  EXPECT_THAT(answer.error().what,
+              HasSubstr("cannot be thrown by a body of 1.55 m at one of 2.05"));
+}
+
 TEST(SingleHit, UnknownNamesAndTimesOutsideAreUsageErrors) {
   for (const HitQuery& wrong : {query("crosss"), query("cross", -1), query("cross", 1e300)}) {
     const auto answer = simulate_hit(default_library(), wrong);
