@@ -140,6 +140,7 @@ std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook
   json first = {{"type", "header"},
                 {"duration_s", rounded(seconds(timeline.end), 4)},
                 {"ticks_per_second", kTicksPerSecond},
+                {"events", timeline.events.size()},  // where fewer follow, the file is cut off
                 {"fighters", json::array()}};
   for (const FighterLook& look : looks) {
     first["fighters"].push_back({{"name", look.name},

@@ -40,7 +40,7 @@ std::string fight_glb(const Timeline& timeline, const std::vector<FighterLook>& 
 // 1.0, T-pose at rest, 60 Hz; plays on any VRM 1.0 character.
 std::string fighter_vrma(const FighterLook& look, const FighterTrack& track);
 
-// A header line, then one JSON object per event.
+// A header line, which counts the events, then one JSON object per event.
 std::string events_jsonl(const Timeline& timeline, const std::vector<FighterLook>& looks,
                          const nlohmann::json& header);
 

@@ -218,7 +218,8 @@ tl::unexpected<Error> event_fault(const std::string& file, std::size_t line, std
 }
 
 struct HitLines {
-  std::string version;  // of the program that wrote them, where the header says so
+  std::string version;                // of the program that wrote them, where the header says so
+  std::optional<std::size_t> events;  // lines that follow the header, where it says so
   std::vector<HitLine> hits;
 };
 
@@ -245,6 +246,10 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
       if (*type != "header") return event_fault(file, number, "not the header line");
       const auto version = event.find("version");
       if (version != event.end() && version->is_string()) all.version = *version;
+      if (const auto count = event.find("events"); count != event.end()) {
+        if (!count->is_number_unsigned()) return event_fault(file, number, "'events' is no count");
+        all.events = *count;
+      }
     }
     if (*type != "hit" && *type != "block") continue;
     const auto text = event.find("replay");
@@ -265,6 +270,12 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     all.hits.push_back({number, std::move(compared), std::move(*replay)});
   }
   if (number == 0) return event_fault(file, 1, "the file is empty");
+  if (all.events && *all.events != number - 1) {
+    return event_fault(
+        file, number,
+        fmt::format("the header counts {} events, and {} are there: {}", *all.events, number - 1,
+                    *all.events < number ? "lines were added" : "the file is cut off"));
+  }
   return all;
 }
 

@@ -28,6 +28,7 @@ TEST(Events, AreOneObjectALineBehindAHeader) {
   EXPECT_EQ(lines[0]["type"], "header");
   EXPECT_EQ(lines[0]["scene"], "duel");
   EXPECT_EQ(lines[0]["seed"], 7);
+  EXPECT_EQ(lines[0]["events"], timeline.events.size());
   EXPECT_EQ(lines[0]["fighters"][0]["name"], "Ana \"the Anvil\"");
   for (std::size_t i = 1; i < lines.size(); ++i) {
     EXPECT_TRUE(lines[i]["t"].is_number());

@@ -124,11 +124,23 @@ TEST(HitReplay, EveryCutOfTheFileIsAnError) {
   for (std::size_t size = 0; size + 1 < whole.size(); size += 1 + size / 16) {
     const std::string cut = whole.substr(0, size);
     const auto report = replayed(cut);
-    if (!cut.empty() && cut.back() == '\n') continue;  // whole lines only
     ASSERT_FALSE(report) << size;
     EXPECT_EQ(report.error().kind, ErrorKind::input);
     EXPECT_THAT(report.error().place, HasSubstr("line "));
   }
+}
+
+TEST(HitReplay, AFileThatEndsBehindAWholeLineIsFoundByTheHeadersCount) {
+  const std::string& whole = hit_events();
+  const std::string header = whole.substr(0, whole.find('\n') + 1);
+  const auto report = replayed(header);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().kind, ErrorKind::input);
+  EXPECT_EQ(report.error().place, "line 1");
+  EXPECT_THAT(report.error().what, HasSubstr("events, and 0 are there"));
+  EXPECT_FALSE(replayed(whole + whole.substr(header.size())));
+  EXPECT_FALSE(replayed("{\"type\":\"header\",\"events\":-1}\n"));
+  EXPECT_TRUE(replayed("{\"type\":\"header\"}\n" + whole.substr(header.size())));  // no count
 }
 
 TEST(HitReplay, HostileFilesAreErrorsWithTheLine) {
