@@ -25,10 +25,21 @@ using nlohmann::json;
 constexpr std::size_t kLongestBout = 1u << 20;  // bytes
 constexpr std::size_t kMostFighters = 16;       // as a scene may have
 constexpr std::size_t kLongestName = 512;       // bytes, as in a scene: it stands by each measure
+constexpr double kLargestFigure = 1e15;         // of a report: squares stay finite
+constexpr const char* kMeasuredParts[] = {"physics", "quality"};
 
 tl::unexpected<Error> bout_fault(const std::string& file, std::size_t line, std::string what) {
   return input_error(file, fmt::format("line {}", line), std::move(what),
                      "give a bouts.jsonl as `ringcraft batch` wrote it");
+}
+
+// What is wrong with the numbers of a part of a report; empty where nothing is.
+std::string wrong_in(const std::string& of, const json& part) {
+  for (const auto& [name, value] : part.items()) {
+    if (value.is_number() && std::abs(value.get<double>()) > kLargestFigure)
+      return fmt::format("'{}' of {} is larger than any bout's", name, of);
+  }
+  return {};
 }
 
 // What is wrong with a report of `scene`; empty where nothing is.
@@ -47,6 +58,13 @@ std::string wrong_with(const json& report, const std::string& scene) {
     if (called == fighter.end() || !called->is_string()) return "a fighter has no 'name'";
     if (called->get_ref<const std::string&>().size() > kLongestName)
       return fmt::format("a fighter's name is longer than {} bytes", kLongestName);
+    if (std::string what = wrong_in(called->get<std::string>(), fighter); !what.empty())
+      return what;
+  }
+  for (const char* part : kMeasuredParts) {
+    const auto found = report.find(part);
+    if (found == report.end() || !found->is_object()) continue;
+    if (std::string what = wrong_in(part, *found); !what.empty()) return what;
   }
   return {};
 }
@@ -93,7 +111,7 @@ Measures measures_of(const Batch& batch) {
     const json& fighters = report.at("fighters");
     for (std::size_t i = 0; i < fighters.size(); ++i)
       measures.add(fighter_name(fighters, i), fighters[i]);
-    for (const char* part : {"physics", "quality"}) {
+    for (const char* part : kMeasuredParts) {
       if (const auto found = report.find(part); found != report.end() && found->is_object())
         measures.add(part, *found);
     }

@@ -134,6 +134,12 @@ TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
            {good.substr(0, second) + with_fighters(std::vector<std::string>(17, "A")), "line 2",
             "17 fighters, at most 16"},
            {good.substr(0, second) + with_fighters({std::string(513, 'A')}), "line 2", "name"},
+           {good.substr(0, second) +
+                R"({"seed":1,"scene":"yard","fighters":[{"name":"A","strikes":1.7e308}]})" + "\n",
+            "line 2", "'strikes' of A is larger than any bout's"},
+           {good.substr(0, second) +
+                R"({"seed":1,"scene":"yard","fighters":[],"quality":{"skate":-1e200}})" + "\n",
+            "line 2", "'skate' of quality is larger"},
            {good + line, "line 6", "twice"}}) {
     const auto read = read_bouts("b", text);
     ASSERT_FALSE(read) << text;
