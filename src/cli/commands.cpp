@@ -25,6 +25,7 @@ void on_signal(int) {
 void watch_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 EndAtSignal::EndAtSignal() {

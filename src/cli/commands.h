@@ -93,7 +93,8 @@ struct ViewOptions {
 // Set by SIGINT and SIGTERM.
 extern std::atomic<bool> interrupted;
 
-// From here on SIGINT and SIGTERM set `interrupted`; a second one ends the process at once.
+// From here on SIGINT and SIGTERM set `interrupted`; a second one ends the process at once. A file
+// that may not grow (ulimit -f) is an error of who writes it.
 void watch_signals();
 
 // While one lives, SIGINT and SIGTERM end the process at once, with exit code 130: for work that
