@@ -305,6 +305,17 @@ void add_completion(CLI::App& app, int& code) {
   });
 }
 
+// An empty path would be the folder in which ringcraft runs, or that of the assets.
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty())
+        throw CLI::ValidationError(option->get_name(), "an empty value names nothing");
+    }
+  }
+  for (const CLI::App* used : app.get_subcommands()) refuse_empty_values(*used);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Fights in which hits are physical.", "ringcraft");
   app.set_version_flag("--version", RINGCRAFT_VERSION);
@@ -338,6 +349,7 @@ int run(int argc, char** argv) {
 
   // Logs go to stderr, results to stdout or files.
   app.parse_complete_callback([&] {
+    refuse_empty_values(app);
     spdlog::set_default_logger(spdlog::stderr_logger_st("ringcraft"));
     spdlog::set_pattern("%n: %v");
     spdlog::set_level(options.verbose > 0 ? spdlog::level::info : spdlog::level::warn);
