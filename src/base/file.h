@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -19,6 +20,14 @@ Result<std::string> read_file(const std::filesystem::path& path);
 
 // Writes beside the target, then renames: the file appears whole or not at all.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+
+// An error where one of these files of a folder is one that read_file() has read. To be asked
+// before long work whose result would be written over what it is made from.
+Result<void> may_write(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
+// Makes the folder and writes files into it, each whole or not at all; none where one may not be.
+using NamedBytes = std::vector<std::pair<std::string, std::string>>;
+Result<void> write_files(const std::filesystem::path& folder, const NamedBytes& files);
 
 // Makes the folder and checks that files can be written there.
 Result<void> make_output_folder(const std::filesystem::path& folder);

@@ -29,12 +29,9 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   const Bench bench = run_bench(*library, *scene, asked.rounds, run);
   const nlohmann::json same = bench_json(bench, *scene, *library);
   const nlohmann::json clock = bench_timing_json(bench, options.threads);
-  const std::pair<const char*, std::string> files[] = {{"bench.json", same.dump(1) + "\n"},
-                                                       {"timing.json", clock.dump(1) + "\n"}};
-  for (const auto& [name, bytes] : files) {
-    if (const auto written = write_file(folder / name, bytes); !written)
-      return fail(written.error());
-  }
+  const auto written = write_files(
+      folder, {{"bench.json", same.dump(1) + "\n"}, {"timing.json", clock.dump(1) + "\n"}});
+  if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}\n", nlohmann::json{{"bench", same}, {"timing", clock}}.dump(1));
   } else {

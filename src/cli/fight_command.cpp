@@ -73,9 +73,10 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!characters) return fail(characters.error());
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
-  if (const auto may = may_write_fight(folder, *scene, extras); !may) return fail(may.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
+  if (const auto may = may_write(folder, fight_file_names(scene->fighters.size(), extras)); !may)
+    return fail(may.error());
 
   spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library->name(),
                library->actions().size(), library->dropped().size(), library->hash());

@@ -148,16 +148,6 @@ Result<HitQuery> query_from(const HitOptions& hit) {
   return query;
 }
 
-using Files = std::vector<std::pair<std::string, std::string>>;  // name, bytes
-
-Result<void> write_files(const std::filesystem::path& folder, const Files& files) {
-  if (auto made = make_output_folder(folder); !made) return made;
-  for (const auto& [name, bytes] : files) {
-    if (auto written = write_file(folder / name, bytes); !written) return written;
-  }
-  return {};
-}
-
 int run_sweep(const MotionLibrary& library, const HitQuery& query, const HitOptions& hit,
               const CommonOptions& options, const std::filesystem::path& folder) {
   std::vector<SweepRange> ranges;

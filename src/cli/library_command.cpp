@@ -54,9 +54,10 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
   if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   const std::string page = library_page(*library, table_of(*library, options));
   if (interrupted) return 130;
-  const std::filesystem::path file = folder / "library.html";
-  if (const auto written = write_file(file, page); !written) return fail(written.error());
-  fmt::print("{} actions; open {}\n", library->actions().size(), file.string());
+  if (const auto written = write_files(folder, {{"library.html", page}}); !written)
+    return fail(written.error());
+  fmt::print("{} actions; open {}\n", library->actions().size(),
+             (folder / "library.html").string());
   return 0;
 }
 

@@ -198,10 +198,8 @@ int run_library_interpolate(const std::string& name, const InterpolateOptions& a
     if (!options.quiet) fmt::print(stderr, "made in {:.1f} s\n", took.count());
   }
   if (options.out.empty()) return 0;
-  if (const auto folder = make_output_folder(options.out); !folder) return fail(folder.error());
-  const std::filesystem::path file = std::filesystem::path(options.out) / "blends.svg";
-  if (const auto written = write_file(file, filmstrip_svg(skeleton, made)); !written)
-    return fail(written.error());
+  const auto written = write_files(options.out, {{"blends.svg", filmstrip_svg(skeleton, made)}});
+  if (!written) return fail(written.error());
   return 0;
 }
 

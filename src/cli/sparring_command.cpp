@@ -34,16 +34,12 @@ std::string first_blows_text(std::span<const Action> actions,
 int write_sparring(const std::string& name, std::span<const Action> actions,
                    std::span<const SparringRecord> records, const CommonOptions& options) {
   const std::filesystem::path folder = options.out.empty() ? "out/sparring" : options.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   const OffenseDefenseTable table(records);
   const std::string json = table_json(name, actions, table);
-  const std::pair<const char*, std::string> files[] = {
-      {"records.csv", records_csv(actions, records)},
-      {"table.json", json},
-      {"table.html", table_page(name, actions, table)}};
-  for (const auto& [file, bytes] : files)
-    if (const auto written = write_file(folder / file, bytes); !written)
-      return fail(written.error());
+  const auto written = write_files(folder, {{"records.csv", records_csv(actions, records)},
+                                            {"table.json", json},
+                                            {"table.html", table_page(name, actions, table)}});
+  if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}", json);
   } else {

@@ -99,7 +99,6 @@ int finish_study(const Study& study, int code, const CommonOptions& options) {
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("out") / ("study_" + study.name)
                                            : std::filesystem::path(options.out);
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   if (const auto written = write_study(folder, study); !written) return fail(written.error());
   if (options.json) {
     fmt::print("{}", study_json(study));

@@ -24,14 +24,9 @@ int run_tree(const std::string& scene_name, const TreeOptions& tree, const Commo
   const std::filesystem::path folder = options.out.empty()
                                            ? std::filesystem::path("out") / (scene->name + "_tree")
                                            : std::filesystem::path(options.out);
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   const std::string json = tree_json(*found);
-  if (const auto written = write_file(folder / "tree.json", json); !written) {
-    return fail(written.error());
-  }
-  if (const auto written = write_file(folder / "tree.svg", tree_svg(*found)); !written) {
-    return fail(written.error());
-  }
+  const auto written = write_files(folder, {{"tree.json", json}, {"tree.svg", tree_svg(*found)}});
+  if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}", json);
   } else {

@@ -87,23 +87,6 @@ std::vector<std::string> fight_file_names(std::size_t fighters, const FightExtra
   return names;
 }
 
-Result<void> may_write_fight(const std::filesystem::path& folder, const SceneFile& scene,
-                             const FightExtras& extras) {
-  std::vector<std::filesystem::path> inputs = {scene.path, scene.library};
-  for (const SceneFighter& fighter : scene.fighters) {
-    if (!fighter.character.empty()) inputs.push_back(fighter.character);
-  }
-  for (const std::string& name : fight_file_names(scene.fighters.size(), extras)) {
-    for (const std::filesystem::path& input : inputs) {
-      std::error_code not_there;
-      if (!std::filesystem::equivalent(folder / name, input, not_there)) continue;
-      return input_error(input.string(), "", "the scene needs it and the fight would overwrite it",
-                         "name another output folder with -o");
-    }
-  }
-  return {};
-}
-
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,
                                  double wall_seconds, int threads, const FightExtras& extras) {
@@ -117,18 +100,17 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
   const ClockFacts clock{wall_seconds, threads, record.decision_ms, record.impulse_step_us};
   const std::string timing = timing_json(record.timeline, clock).dump(1) + "\n";
   const std::string report_text = json_text(report, 1) + "\n";
-  std::vector<std::string> files = {glb, events, report_text, timing, *page};
+  std::vector<std::string> bytes = {glb, events, report_text, timing, *page};
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const FighterTrack& track = record.timeline.tracks[i];
-    if (extras.bvh) files.push_back(fighter_bvh(looks[i].body.skeleton, track, *extras.bvh));
-    if (extras.vrma) files.push_back(fighter_vrma(looks[i], track));
+    if (extras.bvh) bytes.push_back(fighter_bvh(looks[i].body.skeleton, track, *extras.bvh));
+    if (extras.vrma) bytes.push_back(fighter_vrma(looks[i], track));
   }
   const std::vector<std::string> names = fight_file_names(looks.size(), extras);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (const auto written = write_file(folder / names[i], files[i]); !written) {
-      return tl::unexpected(written.error());
-    }
-  }
+  NamedBytes files;
+  for (std::size_t i = 0; i < names.size(); ++i) files.emplace_back(names[i], std::move(bytes[i]));
+  if (const auto written = write_files(folder, files); !written)
+    return tl::unexpected(written.error());
   return FightSummary{json_text(report, 1), text_of(report, folder / "fight.html")};
 }
 

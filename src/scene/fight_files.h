@@ -35,10 +35,6 @@ std::string fight_report(const SceneFile& scene, const MotionLibrary& library,
 // Their names, in the order in which they are written.
 std::vector<std::string> fight_file_names(std::size_t fighters, const FightExtras& extras);
 
-// Refused where one of the files that the scene was read from would be written over.
-Result<void> may_write_fight(const std::filesystem::path& folder, const SceneFile& scene,
-                             const FightExtras& extras);
-
 // Writes all files into `folder`; each appears whole or not at all.
 Result<FightSummary> write_fight(const std::filesystem::path& folder, const SceneFile& scene,
                                  const MotionLibrary& library, const FightRecord& record,

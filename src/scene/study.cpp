@@ -122,20 +122,18 @@ std::string study_html(const Study& study) {
 Result<void> write_study(const std::filesystem::path& folder, const Study& study) {
   const nlohmann::ordered_json timing{
       {"version", RINGCRAFT_VERSION}, {"study", study.name}, {"rows", rows_json(study.timing)}};
-  const std::pair<const char*, std::string> files[] = {
-      {"study.csv", study_csv(study.table)},
-      {"study.json", study_json(study)},
-      {"study.svg", study_svg(study)},
-      {"study.html", study_html(study)},
-      {"timing.json", json_text(timing, 1) + "\n"}};
-  for (const auto& [name, bytes] : files) {
-    if (auto written = write_file(folder / name, bytes); !written) return written;
+  NamedBytes files = {{"study.csv", study_csv(study.table)},
+                      {"study.json", study_json(study)},
+                      {"study.svg", study_svg(study)},
+                      {"study.html", study_html(study)},
+                      {"timing.json", json_text(timing, 1) + "\n"}};
+  if (!study.timing_charts.empty()) {
+    Study clock;
+    clock.title = study.title;
+    clock.charts = study.timing_charts;
+    files.emplace_back("timing.svg", study_svg(clock));
   }
-  if (study.timing_charts.empty()) return {};
-  Study clock;
-  clock.title = study.title;
-  clock.charts = study.timing_charts;
-  return write_file(folder / "timing.svg", study_svg(clock));
+  return write_files(folder, files);
 }
 
 Interval wilson(std::size_t wins, std::size_t of) {

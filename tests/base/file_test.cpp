@@ -83,6 +83,21 @@ TEST_F(FileTest, AFailedWriteLeavesNoPartAndKeepsWhatWasThere) {
 }
 
 // A device without room: the write is reported, not lost.
+TEST_F(FileTest, WhatWasReadIsNotWrittenOverByAResult) {
+  ASSERT_TRUE(write_file(path() / "in.json", "mine"));
+  EXPECT_TRUE(may_write(path(), {"in.json"}));
+  ASSERT_TRUE(read_file(path() / "in.json"));
+  fs::create_hard_link(path() / "in.json", path() / "linked.json");
+  for (const char* name : {"in.json", "linked.json"}) {
+    const auto written = write_files(path(), {{"first.json", ""}, {name, "other"}});
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().file, (path() / "in.json").string());
+  }
+  EXPECT_FALSE(fs::exists(path() / "first.json"));
+  EXPECT_EQ(read_file(path() / "in.json").value(), "mine");
+  EXPECT_TRUE(write_files(path() / "made", {{"in.json", "other"}}));
+}
+
 TEST_F(FileTest, AFullDeviceIsReported) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   fs::create_symlink("/dev/full", path() / ("x.part" + std::to_string(::getpid())));

@@ -1,23 +1,53 @@
 #!/usr/bin/env bash
-# keeps_its_inputs.sh scene|character RINGCRAFT SCENE FOLDER: `ringcraft fight` into the folder of what it
-# reads, where that is called as one of its results, is refused, and what was there stays as it was.
+# keeps_its_inputs.sh scene|character|body|style|capture|other RINGCRAFT SCENE FOLDER: a command that would
+# write one of its results over a file that it reads is refused, and what was there stays as it was.
 set -u
 what=$1 program=$2 scene=$3 folder=$4
+assets=$(dirname "$scene")/..
 fault() { printf 'FAULT: %s\n' "$1"; exit 1; }
 rm -rf "$folder"
-mkdir -p "$folder/before"
-"$program" fight "$scene" -q --set duration_s=0.5 -o "$folder/before" >/dev/null || fault "no fight"
-if [ "$what" = scene ]; then
+mkdir -p "$folder"
+# fight ARGUMENT...: into the folder.
+fight() { "$program" fight "$@" -q --set duration_s=0.5 --export bvh -o "$folder" 2>&1; }
+case $what in
+scene)
   own=$folder/report.json
   cp "$scene" "$own"
-  said=$("$program" fight "$own" -q --set duration_s=0.5 -o "$folder" 2>&1)
-else
+  said=$(fight "$own")
+  ;;
+character)
   own=$folder/fight.glb
-  cp "$folder/before/fight.glb" "$own"
-  said=$("$program" fight "$scene" -q --set duration_s=0.5 --set "fighter.0.character='$own'" -o "$folder" 2>&1)
-fi
+  fight "$scene" >/dev/null || fault "no fight"
+  find "$folder" -type f ! -name fight.glb -delete
+  said=$(fight "$scene" --set "fighter.0.character='$own'")
+  ;;
+body)
+  own=$folder/report.json
+  cp "$assets/bodies/heavyweight.toml" "$own"
+  said=$(fight "$scene" --set "fighter.0.body='$own'")
+  ;;
+style)
+  own=$folder/events.jsonl
+  cp "$assets/styles/balanced.toml" "$own"
+  said=$(fight "$scene" --set "fighter.1.style='$own'")
+  ;;
+capture) # of a manifest elsewhere
+  own=$folder/fighter0.bvh
+  cp -r "$assets/kickboxing" "$folder.library"
+  cp /usr/share/assimp/models/BVH/Boxing_Toes.bvh "$own"
+  sed -i "s|/usr/share/assimp/models/BVH/Boxing_Toes.bvh|$own|" "$folder.library/library.toml"
+  said=$(fight "$scene" --set "library='$folder.library/library.toml'")
+  code=$?
+  rm -rf "$folder.library"
+  (exit "$code")
+  ;;
+other) # than a fight
+  own=$folder/hit.json
+  cp "$assets/bodies/heavyweight.toml" "$own"
+  said=$("$program" hit --body "$own" -o "$folder" 2>&1)
+  ;;
+esac
 code=$?
-rm -rf "$folder/before"
 [ "$code" -eq 3 ] || fault "exit code $code: $said"
-case $said in *"$own: the scene needs it and the fight would overwrite it"*) ;; *) fault "said: $said" ;; esac
+case $said in *"$own: is read and would be written over"*) ;; *) fault "said: $said" ;; esac
 [ "$(ls "$folder")" = "${own##*/}" ] || fault "left $(ls "$folder")"
