@@ -15,7 +15,7 @@
 namespace ringcraft {
 
 // `clip` is the animation's name, whole or after its last '|'; empty for the first. `file` is only
-// for messages.
+// for messages. For bytes that are no file: tests of what io writes, and the fuzzer.
 Result<RawClip> parse_gltf(std::string_view bytes, const std::string& file,
                            const std::string& clip = "", const CaptureLimits& limits = {});
 

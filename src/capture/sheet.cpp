@@ -289,11 +289,4 @@ Result<std::vector<Action>> compile_sheet_file(const std::filesystem::path& path
   return compile_all(*document);
 }
 
-Result<std::vector<Action>> compile_sheet_text(const std::string& text,
-                                               const std::filesystem::path& path) {
-  const auto document = parse_document(text, path, "sheet");
-  if (!document) return tl::unexpected(document.error());
-  return compile_all(*document);
-}
-
 }  // namespace ringcraft

@@ -19,8 +19,4 @@ namespace ringcraft {
 // All actions of one file, in the file's order, for the orthodox canonical body.
 Result<std::vector<Action>> compile_sheet_file(const std::filesystem::path& path);
 
-// The same from text; `path` is for messages and names the folder of the sheet's `poses` file.
-Result<std::vector<Action>> compile_sheet_text(const std::string& text,
-                                               const std::filesystem::path& path);
-
 }  // namespace ringcraft

@@ -103,18 +103,6 @@ const DefenseEntry* OffenseDefenseTable::entry(ActionId attack, ActionId defense
   return nullptr;
 }
 
-std::optional<float> OffenseDefenseTable::chance(ActionId attack, ActionId defense, Tick offset,
-                                                 const Placement& relative) const {
-  const DefenseEntry* found = entry(attack, defense);
-  if (found == nullptr) return std::nullopt;
-  const ExchangeBin wanted = bin_at(offset, relative);
-  const auto bin = std::lower_bound(
-      found->bins.begin(), found->bins.end(), wanted,
-      [](const ExchangeBin& a, const ExchangeBin& b) { return a.key() < b.key(); });
-  if (bin == found->bins.end() || bin->key() != wanted.key()) return std::nullopt;
-  return static_cast<float>(bin->worked) / static_cast<float>(bin->launched);
-}
-
 float OffenseDefenseTable::lift(ActionId attack, ActionId defense) const {
   const DefenseEntry* found = entry(attack, defense);
   if (found == nullptr) return 0;

@@ -4,7 +4,6 @@
 // section 3.2). It is a pure function of sparring records, wherever these come from.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -73,10 +72,6 @@ class OffenseDefenseTable {
   // then the lower id. Empty where nothing was.
   std::span<const DefenseEntry> against(ActionId attack) const;
   const DefenseEntry* entry(ActionId attack, ActionId defense) const;
-
-  // Share of success of the bin, or nothing where no record falls into it.
-  std::optional<float> chance(ActionId attack, ActionId defense, Tick offset,
-                              const Placement& relative) const;
 
   // How much more often the defense works against this attack than against all attacks together
   // (ratio of shares): above 1 the pair belongs together. 0 where there is no entry.

@@ -187,7 +187,6 @@ class MotionTables {
   const ActionTable& at(ActionId action, float share) const;
   // Of the library's actions and of parts of them.
   std::size_t count() const { return actions_.size(); }
-  std::size_t strike_count() const { return strikes_.size(); }  // of the library's actions
   // For so many ticks after its launch no choice strikes or ends.
   Tick lull() const { return lull_; }
   Tick longest_lead() const { return longest_lead_; }  // NextAction::lead

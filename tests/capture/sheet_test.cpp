@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "capture/sheet_track.h"
 
 namespace ringcraft {
@@ -24,9 +25,17 @@ std::vector<std::filesystem::path> sheet_files() {
   return files;
 }
 
+// A sheet of this text with the poses of the library.
+Result<std::vector<Action>> compiled_sheet(const std::string& text) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(sheets_folder() / "guard.toml", folder.path());
+  const auto written = write_file(folder.path() / "test.toml", "poses = \"guard.toml\"\n" + text);
+  if (!written) return tl::unexpected(written.error());
+  return compile_sheet_file(folder.path() / "test.toml");
+}
+
 Result<std::vector<Action>> compiled(const std::string& action) {
-  return compile_sheet_text("poses = \"guard.toml\"\n[[action]]\n" + action,
-                            sheets_folder() / "test.toml");
+  return compiled_sheet("[[action]]\n" + action);
 }
 
 TEST(Sheet, EveryFileCompilesToSoundClips) {
@@ -111,11 +120,10 @@ TEST(Sheet, WhatIsReadIsWhatTheHeaderSays) {
 }
 
 TEST(Sheet, WhatFollowsIsSaidByTheActionOrElseByTheFile) {
-  const auto result = compile_sheet_text(
-      "poses = \"guard.toml\"\nleads_to = [\"jab*\", \"idle\"]\n[[action]]\nname = \"a\"\nkind = "
+  const auto result = compiled_sheet(
+      "leads_to = [\"jab*\", \"idle\"]\n[[action]]\nname = \"a\"\nkind = "
       "\"idle\"\nlength = 0.5\n[[action]]\nname = \"b\"\nkind = \"idle\"\nlength = 0.5\nleads_to = "
-      "[\"step_left\"]\n",
-      sheets_folder() / "test.toml");
+      "[\"step_left\"]\n");
   ASSERT_TRUE(result) << to_string(result.error());
   EXPECT_EQ(result->at(0).leads_to, (std::vector<std::string>{"jab*", "idle"}));
   EXPECT_EQ(result->at(1).leads_to, (std::vector<std::string>{"step_left"}));

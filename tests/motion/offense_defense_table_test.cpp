@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/random.h"
 
@@ -34,22 +35,24 @@ TEST(OffenseDefenseTable, CountsLaunchesAndSuccessesPerPair) {
 TEST(OffenseDefenseTable, TellsOffsetsDistancesAndBearingsApart) {
   const std::vector<SparringRecord> records = {
       record(kJab, kSlip, 0, ExchangeEnd::evaded, {0, 0.95f, kPi}),
+      record(kJab, kSlip, 2, ExchangeEnd::evaded, {0.05f, 0.93f, 3}),
       record(kJab, kSlip, 6, ExchangeEnd::struck, {0, 0.95f, kPi}),
       record(kJab, kSlip, 0, ExchangeEnd::struck, {0, 1.15f, kPi}),
       record(kJab, kSlip, 0, ExchangeEnd::struck, {0.6f, 0.74f, kPi}),
       record(kJab, kSlip, -1, ExchangeEnd::struck, {0, 0.95f, kPi})};
   const OffenseDefenseTable table(records);
-  EXPECT_EQ(table.chance(kJab, kSlip, 2, {0.05f, 0.93f, 3}), 1.0f);
-  EXPECT_EQ(table.chance(kJab, kSlip, 8, {0, 0.93f, 3}), 0.0f);
-  EXPECT_EQ(table.chance(kJab, kSlip, 0, {0, 1.19f, 3}), 0.0f);
-  EXPECT_EQ(table.chance(kJab, kSlip, 0, {0.6f, 0.74f, 3}), 0.0f);
-  EXPECT_EQ(table.chance(kJab, kSlip, -6, {0, 0.95f, 3}), 0.0f);
-  EXPECT_FALSE(table.chance(kJab, kSlip, 60, {0, 0.95f, 3}));
-  EXPECT_FALSE(table.chance(kJab, kSway, 0, {0, 0.95f, 3}));
+  // Offset, distance and bearing of the bin; launched, worked.
+  const std::vector<std::array<int, 5>> wanted = {
+      {-1, 9, 0, 1, 0}, {0, 9, 0, 2, 2}, {0, 9, 2, 1, 0}, {0, 11, 0, 1, 0}, {1, 9, 0, 1, 0}};
+  std::vector<std::array<int, 5>> bins;
+  for (const ExchangeBin& bin : table.entry(kJab, kSlip)->bins)
+    bins.push_back({bin.offset, bin.distance, bin.bearing, static_cast<int>(bin.launched),
+                    static_cast<int>(bin.worked)});
+  EXPECT_EQ(bins, wanted);
   const ExchangeTiming best = best_timing(*table.entry(kJab, kSlip));
   EXPECT_EQ(best.offset, 0);
-  EXPECT_EQ(best.launched, 3u);
-  EXPECT_EQ(best.worked, 1u);
+  EXPECT_EQ(best.launched, 4u);
+  EXPECT_EQ(best.worked, 2u);
 }
 
 // A defense that works against everything belongs to nothing; one that works here alone does.

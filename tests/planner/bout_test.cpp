@@ -74,7 +74,7 @@ class BoutTest : public DuelFixture {
 
   std::array<Tally, 2> bouts(double horizon_0, double horizon_1, int count, double length) {
     static const MotionTables kTables(slow_library(), make_body({}));
-    static const std::vector<std::int32_t> kDamage(kTables.strike_count(), 5000);
+    static const std::vector<std::int32_t> kDamage = damage_of_all(kTables, 5000);
     static ImpactMemo memo({&kTables});
     setup_.memo = &memo;
     for (SideSetup& side : setup_.side) {

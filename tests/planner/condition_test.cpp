@@ -263,7 +263,7 @@ class FeignedTest : public DuelFixture {
   }
 
   FeignedTest() {
-    clean_damage_.assign(own_tables().strike_count(), 5000);
+    clean_damage_ = damage_of_all(own_tables(), 5000);
     for (SideSetup& side : setup_.side) {
       side.tables = &own_tables();
       side.launch.assign(with().actions().size(), 0);

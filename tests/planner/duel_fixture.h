@@ -73,8 +73,14 @@ class DuelFixture : public SyntheticFixture {
     return std::vector<Contender>(count, {make_body({}), style});
   }
 
-  std::vector<std::int32_t> clean_damage_ =
-      std::vector<std::int32_t>(tables().strike_count(), 5000);
+  // SideSetup::clean_damage, the same of every strike.
+  static std::vector<std::int32_t> damage_of_all(const MotionTables& tables, std::int32_t damage) {
+    std::size_t strikes = 0;
+    for (const Action& action : tables.library().actions()) strikes += action.strikes.size();
+    return std::vector<std::int32_t>(strikes, damage);
+  }
+
+  std::vector<std::int32_t> clean_damage_ = damage_of_all(tables(), 5000);
   Style style_;
   DuelSetup setup_;
 };

@@ -897,7 +897,7 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
   const MotionLibrary low = with_low_stance();
   ASSERT_TRUE(low.dropped().empty());
   const MotionTables low_tables(low, make_body({}));
-  const std::vector<std::int32_t> damage(low_tables.strike_count(), 5000);
+  const std::vector<std::int32_t> damage = damage_of_all(low_tables, 5000);
   Style style;
   style.candidates = 40;
   set_style(style);
@@ -943,7 +943,7 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
 TEST_F(DuelTest, OfWhatBeginsAsWasSeenTheBestIsForeseen) {
   const MotionLibrary low = with_low_stance();
   const MotionTables low_tables(low, make_body({}));
-  const std::vector<std::int32_t> damage(low_tables.strike_count(), 0);
+  const std::vector<std::int32_t> damage = damage_of_all(low_tables, 0);
   const ActionId sink = low.find("sink"), blow = low.find("low_cross");
   set_style({});
   Habits habits;
