@@ -140,7 +140,8 @@ void add_sparring(CLI::App& app, CommonOptions& options, int& code) {
   const auto asked = std::make_shared<SparringOptions>();
   CLI::App* sparring = app.add_subcommand(
       "sparring", "Every attack against every defense: records and the offense/defense table");
-  sparring->add_option("LIBRARY", asked->library, "Manifest, folder, or the name of one in assets");
+  sparring->add_option("LIBRARY", asked->library,
+                       "Library file, manifest, folder, or the name of one in assets");
   sparring->add_option("--attacker", asked->attacker, "Body of the attacker");
   sparring->add_option("--defender", asked->defender, "Body of the defender");
   sparring
@@ -202,6 +203,7 @@ void add_library_build(CLI::App& library, CommonOptions& options, int& code) {
       ->excludes(interpolated);
   build->add_flag("--not-connected", asked->not_connected, "Without the motion graph");
   add_common(*build, options, Overrides::none);
+  build->get_option("--out")->description("Library file to write")->type_name("FILE");
   build->callback([=, &options, &code] { code = run_library_build(*asked, options); });
 }
 

@@ -32,7 +32,8 @@ enum StudyTakes : std::uint32_t {
   kTakesSlow = 1u << 4,
   kTakesOnly = 1u << 5,
   kTakesPlacement = 1u << 6,  // of two motions, and what is a fault
-  kTakesPairings = 1u << 7,   // and the leaf value and the ring
+  kTakesHorizons = 1u << 7,   // pairings, and the leaf value and the ring
+  kTakesStyles = 1u << 8,     // the same
 };
 
 struct StudyEntry {
@@ -59,10 +60,10 @@ constexpr StudyEntry kStudies[] = {
     {"hits", "Hits against published figures; exit 1 where a bar fails", "", 0, 0,
      kTakesCount | kTakesOnly, Overrides::seed, run_hits_study},
     {"horizon", "Horizons against each other: wins, hits, defenses, steps", "", 0, 0,
-     kTakesBouts | kTakesDuration | kTakesSlow | kTakesPairings, Overrides::seed_and_values,
+     kTakesBouts | kTakesDuration | kTakesSlow | kTakesHorizons, Overrides::seed_and_values,
      run_horizon_study},
     {"styles", "Styles against each other: distance, hits, wins", "", 0, 0,
-     kTakesBouts | kTakesDuration | kTakesSlow | kTakesPairings, Overrides::seed_and_values,
+     kTakesBouts | kTakesDuration | kTakesSlow | kTakesStyles, Overrides::seed_and_values,
      run_styles_study},
 };
 
@@ -289,8 +290,11 @@ namespace {
 
 void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) {
   const auto understood = [&](StudyTakes what) { return (understands & what) != 0; };
+  const bool pairings = understood(kTakesHorizons) || understood(kTakesStyles);
   if (understood(kTakesBouts)) {
-    one.add_option("--bouts", study.bouts, "Bouts: of each pairing, or to warm up")
+    one.add_option(
+           "--bouts", study.bouts,
+           pairings ? "Bouts of each pairing" : "Bouts before, whose impulse steps are known")
         ->check(CLI::Range(1, 10000));
   }
   if (understood(kTakesDuration)) {
@@ -298,7 +302,8 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
         ->check(within(0.5, 3600.0));
   }
   if (understood(kTakesCount)) {
-    one.add_option("--count", study.count, "Decisions, or random hits of each question")
+    one.add_option("--count", study.count,
+                   understood(kTakesOnly) ? "Random hits of each question" : "Decisions")
         ->check(CLI::Range(1, 1'000'000));
   }
   if (understood(kTakesSlow)) {
@@ -320,8 +325,10 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
         ->check(within(0.0, 1.0));
     one.add_flag("--all-contacts", study.all_contacts, "Count what a strike is meant to touch");
   }
-  if (understood(kTakesPairings)) {
-    one.add_option("--pairings", study.pairings, "3v1,2v1 (horizons, s) or outboxer:infighter")
+  if (pairings) {
+    one.add_option(
+           "--pairings", study.pairings,
+           understood(kTakesStyles) ? "Styles, as outboxer:infighter" : "Horizons, s, as 3v1,2v1")
         ->type_name("A,B")
         ->delimiter(',')
         ->allow_extra_args(false);

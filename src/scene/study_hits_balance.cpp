@@ -142,7 +142,7 @@ void decision_rows(const HitsAsked& asked, HitRows& rows) {
   }
   const double all = static_cast<double>(count);
   rows.held(fmt::format("agreement over {} random hits, 2.5 s", count), "%", 100 * agreed / all,
-            "95 asked, 96 tried in ragdoll.md", at_least(95));
+            "96 in trials before (docs/sources.md, R2)", at_least(95));
   rows.said("said held, fell", "%", 100 * said_held / all, "");
   rows.said("said not held, stood", "%", 100 * said_lost / all, "");
   asked.run.say("decisions compared with simulated ends");
