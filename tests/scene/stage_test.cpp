@@ -197,7 +197,8 @@ TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
   const Vec3 from = toes_of(stands, self, Side::left), to = toes_of(alone, self, Side::left);
   int aside = 0;
   for (int i = 0; i < 9; ++i) {
-    const Vec3 off = .05f * Vec3{static_cast<float>(i % 3 - 1), 0, static_cast<float>(i / 3)};
+    const int column = i % 3 - 1, row = i / 3;
+    const Vec3 off = .05f * Vec3{static_cast<float>(column), 0, static_cast<float>(row)};
     Stage stage(default_library(), {make_body({}), make_body({})});
     step_from(stage);
     stage.begin(other, launch("guard_1", 0, {to.x - from.x + off.x, to.z - from.z + off.z, kPi}));
