@@ -29,8 +29,11 @@ Result<std::string> read_file(const fs::path& path) {
     if (failed) return input_error(path.string(), "", failed.message(), "check its permissions");
     return input_error(path.string(), "", "no such file", "check the path");
   }
+  if (fs::is_directory(path, failed))
+    return input_error(path.string(), "", "a folder", "name a file");
   if (!fs::is_regular_file(path, failed)) {
-    return input_error(path.string(), "", "not a regular file", "name a file, not a folder");
+    return input_error(path.string(), "", "a device or a pipe, no file",
+                       "write what it gives to a file, and name that");
   }
   const auto size = fs::file_size(path, failed);
   if (failed) return input_error(path.string(), "", failed.message(), "check its permissions");

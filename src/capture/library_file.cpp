@@ -13,6 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 bool begins_as_library(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;  // a pipe would be waited for
   std::string head(16, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
