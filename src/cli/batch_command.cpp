@@ -55,7 +55,7 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
   Batch batch = batch_of(*scene, *library);
   if (const auto added = add_bouts_in(folder, batch); !added) return fail(added.error());
   StudyRun run{options.threads, &interrupted, {}};
-  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!options.quiet) run.said = [](const std::string& line) { tell("{}\n", line); };
   const auto kept = [&](const Batch& so_far) {
     return write_file(folder / kBouts, bouts_jsonl(so_far));
   };

@@ -24,7 +24,7 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
   StudyRun run{options.threads, &interrupted, {}};
-  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!options.quiet) run.said = [](const std::string& line) { tell("{}\n", line); };
 
   const Bench bench = run_bench(*library, *scene, asked.rounds, run);
   const nlohmann::json same = bench_json(bench, *scene, *library);
@@ -38,7 +38,7 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
     fmt::print("{}{}\n", bench_text(clock), signature_text(bench.signature));
   }
   if (bench.differs) {
-    fmt::print(stderr, "ringcraft: rounds of one fight differ; please report this\n");
+    tell("ringcraft: rounds of one fight differ; please report this\n");
     return 1;
   }
   return bench.interrupted ? 130 : 0;

@@ -38,7 +38,7 @@ EndAtSignal::~EndAtSignal() {
 }
 
 int fail(const Error& error) {
-  fmt::print(stderr, "ringcraft: {}\n", to_string(error));
+  tell("ringcraft: {}\n", to_string(error));
   return static_cast<int>(error.kind);
 }
 

@@ -4,9 +4,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -107,7 +111,14 @@ class EndAtSignal {
   EndAtSignal& operator=(const EndAtSignal&) = delete;
 };
 
-// Prints one line on stderr and returns the error's exit code.
+// Text for people, on stderr; where that cannot be written, nothing is said.
+template <class... Values>
+void tell(fmt::format_string<Values...> text, Values&&... values) {
+  const std::string said = fmt::format(text, std::forward<Values>(values)...);
+  std::fwrite(said.data(), 1, said.size(), stderr);
+}
+
+// Tells one line and returns the error's exit code.
 int fail(const Error& error);
 
 int run_fight(const std::string& scene, const FightCommandOptions& fight,

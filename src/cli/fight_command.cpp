@@ -87,19 +87,23 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   fight_options.interrupted = &interrupted;
   if (!options.quiet) {
     fight_options.progress = [&](Tick now, Tick end) {
-      fmt::print(stderr, "\r{}: {:.0f} of {:.0f} s", scene->name, seconds(now), seconds(end));
+      tell("\r{}: {:.0f} of {:.0f} s", scene->name, seconds(now), seconds(end));
     };
   }
   const auto begin = std::chrono::steady_clock::now();
   const FightRecord record = simulate_fight(*library, *scene, fight_options);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  if (!options.quiet) fmt::print(stderr, "\n");
+  if (!options.quiet) tell("\n");
 
   const auto summary =
       write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
-  fmt::print(options.summary_to_stderr ? stderr : stdout, "{}\n",
-             options.json ? summary->report : summary->text);
+  const std::string& said = options.json ? summary->report : summary->text;
+  if (options.summary_to_stderr) {
+    tell("{}\n", said);
+  } else {
+    fmt::print("{}\n", said);
+  }
   return record.interrupted ? 130 : 0;
 }
 

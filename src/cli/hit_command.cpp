@@ -161,12 +161,12 @@ int run_sweep(const MotionLibrary& library, const HitQuery& query, const HitOpti
   settings.interrupted = &interrupted;
   if (!options.quiet) {
     settings.progress = [](std::size_t done, std::size_t all) {
-      if (done % 100 == 0 || done == all) fmt::print(stderr, "\r{} of {} hits", done, all);
+      if (done % 100 == 0 || done == all) tell("\r{} of {} hits", done, all);
     };
   }
   const auto sweep = sweep_hits(library, query, std::move(ranges), settings);
   if (!sweep) return fail(sweep.error());
-  if (!options.quiet) fmt::print(stderr, "\n");
+  if (!options.quiet) tell("\n");
   const std::string json = sweep_json(*sweep);
   const auto written = write_files(folder, {{"hit_sweep.csv", sweep_csv(*sweep)},
                                             {"hit_sweep.json", json + "\n"},

@@ -97,12 +97,11 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   if (const auto written = write_library(*library, file); !written) return fail(written.error());
   const nlohmann::json summary = summary_of(*library);
   if (options.verbose > 0) {
-    for (const std::string& note : library->notes()) fmt::print(stderr, "{}\n", note);
+    for (const std::string& note : library->notes()) tell("{}\n", note);
   }
   if (!options.quiet) {
-    for (const std::string& dropped : library->dropped())
-      fmt::print(stderr, "dropped: {}\n", dropped);
-    fmt::print(stderr, "built in {:.1f} s\n", took.count());
+    for (const std::string& dropped : library->dropped()) tell("dropped: {}\n", dropped);
+    tell("built in {:.1f} s\n", took.count());
   }
   if (options.json) {
     fmt::print("{}\n", json_text(summary, 1));

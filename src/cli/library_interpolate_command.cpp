@@ -195,7 +195,7 @@ int run_library_interpolate(const std::string& name, const InterpolateOptions& a
     if (options.verbose > 0)
       for (const std::string& note : notes) fmt::print("{}\n", note);
     fmt::print("{} blends made of {} actions\n", made.size(), actions.size());
-    if (!options.quiet) fmt::print(stderr, "made in {:.1f} s\n", took.count());
+    if (!options.quiet) tell("made in {:.1f} s\n", took.count());
   }
   if (options.out.empty()) return 0;
   const auto written = write_files(options.out, {{"blends.svg", filmstrip_svg(skeleton, made)}});

@@ -1,5 +1,8 @@
 // The command `ringcraft`.
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -365,24 +368,32 @@ int run(int argc, char** argv) {
   return code;
 }
 
+// What is opened gets the number of no standard stream that is closed: no text gets into it.
+void keep_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+  }
+}
+
 }  // namespace
 }  // namespace ringcraft
 
 int main(int argc, char** argv) {
+  ringcraft::keep_standard_streams();
   ringcraft::watch_signals();
   const auto nothing_delivered = [] {
-    fmt::print(stderr, "ringcraft: stdout: what was asked for cannot be written; give it room\n");
+    ringcraft::tell("ringcraft: stdout: what was asked for cannot be written; give it room\n");
     return static_cast<int>(ringcraft::ErrorKind::input);
   };
   try {
     const int code = ringcraft::run(argc, argv);
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? code : nothing_delivered();
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "ringcraft: {}; check the path and its permissions\n", error.what());
+    ringcraft::tell("ringcraft: {}; check the path and its permissions\n", error.what());
     return static_cast<int>(ringcraft::ErrorKind::input);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return nothing_delivered();
-    fmt::print(stderr, "ringcraft: simulation failed: {}; please report this\n", error.what());
+    ringcraft::tell("ringcraft: simulation failed: {}; please report this\n", error.what());
     return static_cast<int>(ringcraft::ErrorKind::simulation);
   }
 }

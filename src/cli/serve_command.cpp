@@ -18,7 +18,7 @@ int run_serve(const ServeOptions& serve, const CommonOptions& options) {
       serve_http(*folder, static_cast<std::uint16_t>(serve.port), limits, [&](std::uint16_t port) {
         fmt::print("http://127.0.0.1:{}/\n", port);
         std::fflush(stdout);
-        if (!options.quiet) fmt::print(stderr, "shows {}; Ctrl-C ends\n", serve.folder);
+        if (!options.quiet) tell("shows {}; Ctrl-C ends\n", serve.folder);
       });
   if (!served) return fail(served.error());
   return 130;

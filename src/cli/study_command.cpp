@@ -116,7 +116,7 @@ StudyRun study_run(const CommonOptions& options) {
   StudyRun run;
   run.threads = options.threads;
   run.interrupted = &interrupted;
-  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!options.quiet) run.said = [](const std::string& line) { tell("{}\n", line); };
   return run;
 }
 

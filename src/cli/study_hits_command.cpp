@@ -16,11 +16,11 @@ int run_hits_study(const StudyOptions& study, const CommonOptions& options) {
   StudyRun run;
   run.threads = options.threads;
   run.interrupted = &interrupted;
-  if (!options.quiet) run.said = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!options.quiet) run.said = [](const std::string& line) { tell("{}\n", line); };
   const HitsStudy found = hits_study(*library, settings, run);
   if (!options.json) {
     for (const auto& row : found.study.timing.rows) {
-      fmt::print(stderr, "{}\n", study_text({found.study.timing.columns, {row}}));
+      tell("{}\n", study_text({found.study.timing.columns, {row}}));
     }
   }
   return finish_study(found.study, found.missed > 0 ? 1 : 0, options);

@@ -110,9 +110,9 @@ int run_view(const ViewOptions& view, const CommonOptions& options) {
   if (view.print) return 0;
   const std::vector<std::string> words = browser();
   if (words.empty()) {
-    if (!options.quiet) fmt::print(stderr, "no display here; open the address by hand\n");
+    if (!options.quiet) tell("no display here; open the address by hand\n");
   } else if (!opens(words, address) && !options.quiet) {
-    fmt::print(stderr, "{} did not open it; open the address by hand\n", words.front());
+    tell("{} did not open it; open the address by hand\n", words.front());
   }
   return 0;
 }
