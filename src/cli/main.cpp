@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "base/schema.h"
 #include "cli/commands.h"
 #include "cli/completion.h"
 #include "cli/ranges.h"
@@ -321,17 +322,31 @@ void refuse_empty_values(const CLI::App& app) {
   for (const CLI::App* used : app.get_subcommands()) refuse_empty_values(*used);
 }
 
+// What was wrong with the command line, and where help is.
+Error misuse(const CLI::App& whole, const CLI::Error& error) {
+  std::string named = whole.get_name();
+  const CLI::App* at = &whole;
+  while (!at->get_subcommands().empty()) {
+    at = at->get_subcommands().front();
+    named += " " + at->get_name();
+  }
+  const std::string help = fmt::format("`{} --help` says what there is", named);
+  const std::vector<std::string> unknown = at->remaining();
+  if (at->get_require_subcommand_min() == 0 || unknown.empty())
+    return {ErrorKind::usage, "", "", error.what(), help};
+  std::vector<std::string> commands;
+  for (const CLI::App* command : at->get_subcommands({})) commands.push_back(command->get_name());
+  const std::string near = nearest_word(unknown.front(), commands);
+  return {ErrorKind::usage, "", "", fmt::format("no command '{}'", unknown.front()),
+          near.empty() ? help : fmt::format("did you mean '{}'? {}", near, help)};
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Fights in which hits are physical.", "ringcraft");
   app.set_version_flag("--version", RINGCRAFT_VERSION);
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* whole, const CLI::Error& error) {
-    std::string named = whole->get_name();
-    for (const CLI::App* at = whole; !at->get_subcommands().empty();) {
-      at = at->get_subcommands().front();
-      named += " " + at->get_name();
-    }
-    return fmt::format("ringcraft: {}; `{} --help` says what there is\n", error.what(), named);
+    return fmt::format("ringcraft: {}\n", to_string(misuse(*whole, error)));
   });
   CommonOptions options;
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
