@@ -157,7 +157,7 @@ Result<SweepRange> sweep_range(const std::string& text) {
   if (!(step > 0)) return fault(text, "has a step that is not above 0");
   const double count = std::floor((to - from) / step + 1e-9) + 1;
   if (count > static_cast<double>(kMostSweepPoints)) {
-    return fault(text, fmt::format("has {:.0f} points, at most {}", count, kMostSweepPoints));
+    return fault(text, fmt::format("has {:g} points, at most {}", count, kMostSweepPoints));
   }
   SweepRange range{*axis, {}};
   for (int i = 0; i < static_cast<int>(count); ++i) {
