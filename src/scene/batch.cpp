@@ -33,9 +33,16 @@ tl::unexpected<Error> bout_fault(const std::string& file, std::size_t line, std:
                      "give a bouts.jsonl as `ringcraft batch` wrote it");
 }
 
+// Such as no scene has in a name: it goes to tables and terminals.
+bool has_control_characters(const std::string& name) {
+  return std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
+}
+
 // What is wrong with the numbers of a part of a report; empty where nothing is.
 std::string wrong_in(const std::string& of, const json& part) {
+  if (has_control_characters(of)) return fmt::format("'{}' has control characters", of);
   for (const auto& [name, value] : part.items()) {
+    if (has_control_characters(name)) return fmt::format("'{}' has control characters", name);
     if (value.is_number() && std::abs(value.get<double>()) > kLargestFigure)
       return fmt::format("'{}' of {} is larger than any bout's", name, of);
   }
@@ -202,7 +209,8 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
                                                           : std::string();
       };
       batch = {word("scene"), word("setup")};
-      if (word("type") != "header" || batch.scene.empty() || batch.setup.empty())
+      if (word("type") != "header" || batch.scene.empty() || batch.setup.empty() ||
+          has_control_characters(batch.scene + batch.setup))
         return bout_fault(file, number, "not the header line");
       continue;
     }

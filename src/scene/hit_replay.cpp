@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/json_object.h"
 #include "base/tasks.h"
+#include "base/utf8.h"
 #include "io/events.h"
 #include "physics/response.h"
 #include "scene/replay_bytes.h"
@@ -245,7 +246,8 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
     if (number == 1) {
       if (*type != "header") return event_fault(file, number, "not the header line");
       const auto version = event.find("version");
-      if (version != event.end() && version->is_string()) all.version = *version;
+      if (version != event.end() && version->is_string())
+        all.version = clean_name(version->get<std::string>());
       if (const auto count = event.find("events"); count != event.end()) {
         if (!count->is_number_unsigned()) return event_fault(file, number, "'events' is no count");
         all.events = *count;

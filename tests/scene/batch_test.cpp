@@ -134,6 +134,14 @@ TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
            {good.substr(0, second) + with_fighters(std::vector<std::string>(17, "A")), "line 2",
             "17 fighters, at most 16"},
            {good.substr(0, second) + with_fighters({std::string(513, 'A')}), "line 2", "name"},
+           {R"({"type":"header","scene":"ya\u001b[31mrd","setup":"00"})"
+            "\n",
+            "line 1", "header"},
+           {good.substr(0, second) + with_fighters({R"(A\u001b[31m)"}), "line 2",
+            "has control characters"},
+           {good.substr(0, second) +
+                R"({"seed":1,"scene":"yard","fighters":[{"name":"A","str\nikes":1}]})" + "\n",
+            "line 2", "has control characters"},
            {good.substr(0, second) +
                 R"({"seed":1,"scene":"yard","fighters":[{"name":"A","strikes":1.7e308}]})" + "\n",
             "line 2", "'strikes' of A is larger than any bout's"},

@@ -70,6 +70,8 @@ TEST(HitReplay, SaysWhereAnotherVersionWroteWhatDiffers) {
   EXPECT_EQ(report->differ, 1u);
   ASSERT_EQ(report->lines.size(), 2u);
   EXPECT_THAT(report->lines.back(), HasSubstr("written by ringcraft 0.0.9"));
+  text.replace(text.find("0.0.9"), 5, R"(\u001b[31m)");
+  EXPECT_THAT(replayed(text)->lines.back(), HasSubstr("written by ringcraft ?[31m"));
 }
 
 TEST(HitReplay, OneChangedDigitOfAnOutcomeIsFound) {
