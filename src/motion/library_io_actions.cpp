@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.h"
+
 namespace ringcraft {
 
 namespace {
@@ -160,6 +162,8 @@ Clip get_clip(BytesIn& in) {
 
 std::string wrong_with(const Action& action) {
   if (action.name.empty()) return "an action without a name";
+  if (clean_name(action.name, std::string::npos) != action.name)
+    return "a name with control characters";
   const std::vector<std::string> broken = faults(action.clip);
   if (!broken.empty()) return broken.front();
   if (action.strikes.size() > kMostStrikes) return "more strikes than an action may have";

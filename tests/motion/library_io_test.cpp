@@ -240,6 +240,7 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
               HasSubstr("not finite"));
   EXPECT_THAT(refused([](auto& a) { a[0].name = "step"; }), HasSubstr("two actions"));
   EXPECT_THAT(refused([](auto& a) { a[0].name = "step\xff"; }), HasSubstr("section"));
+  EXPECT_THAT(refused([](auto& a) { a[0].name = "step\x1b[31m"; }), HasSubstr("control char"));
   EXPECT_THAT(refused([](auto& a) { a[0].source = "Box\xe9.bvh"; }), HasSubstr("section"));
 }
 
