@@ -8,20 +8,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <mutex>
-#include <set>
 
 namespace ringcraft {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// What read_file() has read.
-std::mutex inputs_mutex;
-std::set<fs::path> inputs;
-
-}  // namespace
 
 Result<std::string> read_file(const fs::path& path) {
   std::error_code failed;
@@ -45,8 +35,6 @@ Result<std::string> read_file(const fs::path& path) {
   if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
     return input_error(path.string(), "", "cannot be read", "check its permissions");
   }
-  const std::lock_guard lock(inputs_mutex);
-  inputs.insert(path);
   return bytes;
 }
 
@@ -99,8 +87,8 @@ Result<void> make_output_folder(const fs::path& folder) {
   return {};
 }
 
-Result<void> may_write(const fs::path& folder, const std::vector<std::string>& names) {
-  const std::lock_guard lock(inputs_mutex);
+Result<void> may_write(const fs::path& folder, const std::vector<std::string>& names,
+                       const std::vector<fs::path>& inputs) {
   for (const std::string& name : names) {
     for (const fs::path& input : inputs) {
       std::error_code not_there;
@@ -113,9 +101,6 @@ Result<void> may_write(const fs::path& folder, const std::vector<std::string>& n
 }
 
 Result<void> write_files(const fs::path& folder, const NamedBytes& files) {
-  std::vector<std::string> names;
-  for (const auto& [name, bytes] : files) names.push_back(name);
-  if (auto may = may_write(folder, names); !may) return may;
   if (auto made = make_output_folder(folder); !made) return made;
   for (const auto& [name, bytes] : files) {
     if (auto written = write_file(folder / name, bytes); !written) return written;

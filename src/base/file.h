@@ -21,11 +21,12 @@ Result<std::string> read_file(const std::filesystem::path& path);
 // Writes beside the target, then renames: the file appears whole or not at all.
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
-// An error where one of these files of a folder is one that read_file() has read. To be asked
-// before long work whose result would be written over what it is made from.
-Result<void> may_write(const std::filesystem::path& folder, const std::vector<std::string>& names);
+// An error where one of these files of a folder is one of `inputs`. To be asked before long work
+// whose result would be written over what it is made from.
+Result<void> may_write(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                       const std::vector<std::filesystem::path>& inputs);
 
-// Makes the folder and writes files into it, each whole or not at all; none where one may not be.
+// Makes the folder and writes files into it, each whole or not at all.
 using NamedBytes = std::vector<std::pair<std::string, std::string>>;
 Result<void> write_files(const std::filesystem::path& folder, const NamedBytes& files);
 

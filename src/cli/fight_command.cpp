@@ -73,10 +73,13 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!characters) return fail(characters.error());
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
+  std::vector<std::filesystem::path> inputs = scene->files;
+  inputs.push_back(scene->library);
+  for (const SceneFighter& fighter : scene->fighters) inputs.push_back(fighter.character);
+  const auto names = fight_file_names(scene->fighters.size(), extras);
+  if (const auto may = may_write(folder, names, inputs); !may) return fail(may.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
-  if (const auto may = may_write(folder, fight_file_names(scene->fighters.size(), extras)); !may)
-    return fail(may.error());
 
   spdlog::info("library {}: {} actions, {} dropped, hash {:016x}", library->name(),
                library->actions().size(), library->dropped().size(), library->hash());

@@ -89,6 +89,7 @@ class Reader {
 
   Result<SceneFile> read() {
     scene_.path = document_.path;
+    scene_.files.push_back(scene_.path);
     scene_.name = value_.value("name", clean_name(document_.path.stem().string()));
     scene_.duration = std::max<Tick>(1, ticks(value_["duration_s"].get<double>()));
     scene_.seed = value_.value("seed", scene_.seed);
@@ -188,11 +189,13 @@ class Reader {
     if (!body_file) return tl::unexpected(body_file.error());
     const auto body = read_body(*body_file);
     if (!body) return tl::unexpected(body.error());
+    scene_.files.push_back(*body_file);
     fighter.body = *body;
     const auto style_file = named_file(at + "/style", given["style"].get<std::string>(), "styles");
     if (!style_file) return tl::unexpected(style_file.error());
     const auto style = read_style(*style_file);
     if (!style) return tl::unexpected(style.error());
+    scene_.files.push_back(*style_file);
     fighter.style = *style;
     fighter.style.horizon_s = given.value("horizon_s", fighter.style.horizon_s);
     fighter.team = team_of(given, i);

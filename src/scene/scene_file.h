@@ -30,6 +30,7 @@ struct SceneFighter {
 
 struct SceneFile {
   std::filesystem::path path;
+  std::vector<std::filesystem::path> files;  // that were read: itself, bodies and styles
   std::string name;
   Tick duration = 0;
   std::uint64_t seed = 1;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# keeps_its_inputs.sh scene|character|body|style|capture|other RINGCRAFT SCENE FOLDER: a command that would
-# write one of its results over a file that it reads is refused, and what was there stays as it was.
+# keeps_its_inputs.sh scene|character|body|style RINGCRAFT SCENE FOLDER: a fight that would write
+# one of its results over a file that it reads is refused, and what was there stays as it was.
 set -u
 what=$1 program=$2 scene=$3 folder=$4
 assets=$(dirname "$scene")/..
@@ -30,21 +30,6 @@ style)
   own=$folder/events.jsonl
   cp "$assets/styles/balanced.toml" "$own"
   said=$(fight "$scene" --set "fighter.1.style='$own'")
-  ;;
-capture) # of a manifest elsewhere
-  own=$folder/fighter0.bvh
-  cp -r "$assets/kickboxing" "$folder.library"
-  cp /usr/share/assimp/models/BVH/Boxing_Toes.bvh "$own"
-  sed -i "s|/usr/share/assimp/models/BVH/Boxing_Toes.bvh|$own|" "$folder.library/library.toml"
-  said=$(fight "$scene" --set "library='$folder.library/library.toml'")
-  code=$?
-  rm -rf "$folder.library"
-  (exit "$code")
-  ;;
-other) # than a fight
-  own=$folder/hit.json
-  cp "$assets/bodies/heavyweight.toml" "$own"
-  said=$("$program" hit --body "$own" -o "$folder" 2>&1)
   ;;
 esac
 code=$?
