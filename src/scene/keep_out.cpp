@@ -99,6 +99,21 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
   return offsets;
 }
 
+Vec3 way_beside(const Capsule& foot, std::span<const BodyCapsules> others, Vec3 away) {
+  constexpr int kSteps = 8;
+  constexpr float kSteepest = .4f;  // share along the ground of a way out that is followed
+  Vec3 way{};
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 out = way_out({foot.a + way, foot.b + way, foot.radius}, others, away);
+    if (out == Vec3{}) break;
+    const Vec3 flat{out.x, 0, out.z};
+    const float length = glm::length(out);
+    const Vec3 aside = glm::length(flat) > kSteepest * length ? flat : away;
+    way += normalized_or(Vec3{aside.x, 0, aside.z}, kForward) * length;
+  }
+  return shortened(way, kMostKeptOut.back());
+}
+
 Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets) {
   Pose moved = pose;
   for (std::size_t m = 0; m < offsets.size(); ++m) {

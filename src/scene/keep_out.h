@@ -35,6 +35,10 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others, const LimbOffsets& now,
                      const std::function<Pose(const Pose&)>& as_shown = std::identity{});
 
+// How far along the ground a foot that comes down must go to stand beside the `others`, m; the way
+// out that kept_out() finds may lead up, onto them. `away`: where none of their ways leads aside.
+Vec3 way_beside(const Capsule& foot, std::span<const BodyCapsules> others, Vec3 away);
+
 // `pose` with the ends of its limbs moved by the offsets, by two-link IK.
 Pose with_offsets(const BodyModel& body, const Pose& pose, const LimbOffsets& offsets);
 

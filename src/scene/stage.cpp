@@ -289,17 +289,22 @@ void Stage::keep_out_and_record() {
   }
 }
 
-void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
-  std::vector<BodyCapsules> near;
+// The bodies within its reach, as they are shown.
+std::vector<BodyCapsules> Stage::near(const Actor& actor) const {
+  std::vector<BodyCapsules> all;
   for (const Actor& other : actors_) {
     const float apart =
         glm::distance(actor.motion.unhindered.hips, other.motion.playback.shown().hips);
-    if (&other != &actor && apart < kArmsReach * actor.body.scale)
-      near.push_back(other.swept.after);
+    if (&other != &actor && apart < kArmsReach * actor.body.scale) all.push_back(other.swept.after);
   }
-  amend(actor,
-        kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(), near, before,
-                 [&](const Pose& pose) { return in_range(actor.body, actor.motion, pose); }));
+  return all;
+}
+
+void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
+  amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(),
+                        near(actor), before, [&](const Pose& pose) {
+                          return in_range(actor.body, actor.motion, pose);
+                        }));
 }
 
 // A foot on which a body falls does not stay under it.
@@ -320,11 +325,18 @@ void Stage::draw_feet_away(Actor& actor) const {
 
 // A foot that comes down where another body is stands beside it, and does not slide into it once it
 // carries.
-void Stage::set_feet_aside(Actor& actor) {
+void Stage::set_feet_aside(Actor& actor) const {
   for (const Side side : {Side::left, Side::right}) {
     Vec3& offset = actor.motion.kept_out[2 + static_cast<std::size_t>(side)];
     if (!actor.motion.playback.presses_down(side) || offset == Vec3{}) continue;
-    const Vec3 aside{offset.x, 0, offset.z};
+    Vec3 aside{offset.x, 0, offset.z};
+    const Part foot = side == Side::left ? Part::left_foot : Part::right_foot;
+    const Pose& pose = actor.motion.unhindered;
+    Capsule stands = capsules(actor.body, world_pose(actor.body.skeleton, pose))[index(foot)];
+    stands.a += aside;
+    stands.b += aside;
+    aside +=
+        way_beside(stands, near(actor), aside == Vec3{} ? pose.rotation[0] * -kForward : aside);
     actor.motion.playback.stand_aside(side, aside);
     actor.aside += aside;
     offset -= aside;

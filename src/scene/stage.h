@@ -122,7 +122,8 @@ class Stage {
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;
   void draw_feet_away(Actor& actor) const;
-  static void set_feet_aside(Actor& actor);
+  std::vector<BodyCapsules> near(const Actor& actor) const;
+  void set_feet_aside(Actor& actor) const;
   Pose clip_pose(const Actor& actor, Tick tick) const;
 
   const MotionLibrary& library_;

@@ -219,6 +219,45 @@ TEST_F(StageTest, AFootThatComesDownBesideAnotherStaysWhereItStands) {
   EXPECT_GE(aside, 3);
 }
 
+// A kick that is set down on the other's foot: what held it off upward must not let it sink in once
+// it carries.
+TEST_F(StageTest, AFootThatComesDownUponAnotherStandsBesideIt) {
+  const FighterId self(0), other(1);
+  const auto foot_of = [](const Stage& stage, FighterId who) {
+    const BodyModel& body = stage.body(who);
+    return capsules(body, world_pose(body.skeleton, stage.shown(who)))[index(Part::left_foot)];
+  };
+  const auto toes_of = [](const Stage& stage, FighterId who) {
+    const WorldPose world = world_pose(stage.body(who).skeleton, stage.shown(who));
+    return world.position[index(toes(Side::left))];
+  };
+  const Launch kick = launch("roundhouse_lead_low", 0, {});
+  const Tick over = kick.end - 2;
+  Stage alone(default_library(), {make_body({})}), stands(default_library(), {make_body({})});
+  alone.begin(self, kick);
+  for (Tick t = 0; t < over; ++t) show(alone, t);
+  stands.begin(self, launch("guard_1", 0, {0, 0, kPi}));
+  show(stands, 0);
+  const Vec3 off = toes_of(alone, self) - toes_of(stands, self);
+  int carries = 0;
+  for (int i = 0; i < 25; ++i) {
+    const float x = .03f * static_cast<float>(i % 5), z = .03f * static_cast<float>(i / 5);
+    Stage stage(default_library(), {make_body({}), make_body({})});
+    stage.begin(self, kick);
+    stage.begin(other, launch("guard_1", 0, {off.x + x, off.z + z, kPi}));
+    for (Tick t = 0; t < over + 60; ++t) {
+      if (t == over) stage.begin(self, launch("guard_1", over, {}));
+      show(stage, t);
+      if (t < over / 2 || !stage.held(self).left) continue;
+      ++carries;
+      const Capsule own = foot_of(stage, self), its = foot_of(stage, other);
+      const float apart = segment_distance(own.a, own.b, its.a, its.b).distance;
+      EXPECT_LT(own.radius + its.radius - apart, .02f) << i << ", " << t;
+    }
+  }
+  EXPECT_GT(carries, 100);
+}
+
 TEST_F(StageTest, AFootThatIsFallenUponIsDrawnAway) {
   const FighterId self(0), other(1);
   Stage stage(default_library(), {make_body({}), make_body({})});
