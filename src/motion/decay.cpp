@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/ticks.h"
 #include "motion/joint_turns.h"
 
 namespace ringcraft {
 namespace {
+
+constexpr float kSquareRootOf2 = std::numbers::sqrt2_v<float>;
 
 // The rotation vector of q that lies nearest to `reference`: a turn of a little more than half a
 // circle does not become one the other way.
@@ -17,6 +20,18 @@ Vec3 rotation_vector_near(Quat q, Vec3 reference) {
   if (angle < 1e-4f) return v;
   const Vec3 around = v * (1 - 2 * kPi / angle);
   return glm::distance2(around, reference) < glm::distance2(v, reference) ? around : v;
+}
+
+// Of the way to go, at a share 0 .. 1 of the time.
+constexpr float kMoving = 4;  // acceleration, in ways / T^2
+float left_of_way(float s) {
+  return s < .5f ? 1 - kMoving / 2 * s * s : kMoving / 2 * (1 - s) * (1 - s);
+}
+
+// The way, in v0 T, that is gone with a speed v0 that is taken off, until it is gone back.
+constexpr float kStopping = 1 + kSquareRootOf2;  // acceleration, in v0 / T
+float way_of_speed(float u) {
+  return u < 1 / kSquareRootOf2 ? u - kStopping / 2 * u * u : kStopping / 2 * (1 - u) * (1 - u);
 }
 
 // A rotation as yaw * lean.
@@ -31,6 +46,14 @@ struct YawAndLean {
 
 }  // namespace
 
+float seconds_to_move(float distance, float acceleration) {
+  return std::sqrt(kMoving * distance / acceleration);
+}
+
+float seconds_to_stop(float speed, float acceleration) {
+  return kStopping * speed / acceleration;
+}
+
 Decay::Decay(Vec3 value, Vec3 velocity, float seconds) : Decay(value, velocity, seconds, seconds) {}
 
 Decay::Decay(Vec3 value, Vec3 velocity, float seconds, float velocity_seconds)
@@ -40,13 +63,9 @@ Decay::Decay(Vec3 value, Vec3 velocity, float seconds, float velocity_seconds)
       velocity_seconds_(std::min(velocity_seconds, seconds)) {}
 
 Vec3 Decay::value() const {
-  // x(s) = x0 (1 - 10 s^3 + 15 s^4 - 6 s^5),  s = t / T, and
-  // v0 Tv (u - 6 u^3 + 8 u^4 - 3 u^5),  u = t / Tv
   if (done()) return {};
-  const float s = age_ / seconds_, s3 = s * s * s;
-  const float u = std::min(1.0f, age_ / velocity_seconds_), u3 = u * u * u;
-  return start_ * (1 - s3 * (10 - s * (15 - 6 * s))) +
-         velocity_ * velocity_seconds_ * (u - u3 * (6 - u * (8 - 3 * u)));
+  return start_ * left_of_way(age_ / seconds_) +
+         velocity_ * velocity_seconds_ * way_of_speed(std::min(1.0f, age_ / velocity_seconds_));
 }
 
 float lever_of(const Skeleton& skeleton, Joint joint) {
@@ -81,8 +100,7 @@ float lever_of(const Skeleton& skeleton, Joint joint) {
 
 float stopping_seconds(Vec3 velocity) {
   constexpr float kLeast = .10f;
-  // A quintic takes 3.9 v / T.
-  return std::max(kLeast, 3.9f * glm::length(velocity) / 20);
+  return std::max(kLeast, seconds_to_stop(glm::length(velocity), 12));
 }
 
 // The velocity is that of the rotation vector itself, not the difference of angular velocities:
@@ -123,9 +141,9 @@ BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
     return longest ? stopping_seconds(velocity * kReach) : seconds;
   };
   const float off = wrapped_angle(is.yaw - clip.yaw + on) - on;
-  // A quintic over T s goes by d with at most 1.875 d / T.
+  // On a way d in T s it goes by 2 d / T half-way.
   const float turns =
-      std::max(seconds, std::min(longest.value_or(0), 1.875f * std::abs(off) / kFastestTurn));
+      std::max(seconds, std::min(longest.value_or(0), 2 * std::abs(off) / kFastestTurn));
   return {{kUp * off, kUp * yaw_velocity, turns, stops(kUp * yaw_velocity)},
           {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)}};
 }

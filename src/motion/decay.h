@@ -7,8 +7,14 @@
 
 namespace ringcraft {
 
-// An offset that decays from a start value and velocity to nothing. Quintic: velocity and
-// acceleration end at zero, the acceleration starts at zero (Bollo 2018, with a0 = 0).
+// The shortest times, s, in which a limb is moved a distance, m, from rest to rest, and in which
+// the speed, m/s, of one is taken off and it is back where it was, with no more than so much
+// acceleration, m/s2: as much one way as the other (bang-bang control of a double integrator).
+float seconds_to_move(float distance, float acceleration);
+float seconds_to_stop(float speed, float acceleration);
+
+// An offset that decays from a start value and velocity to nothing, with the least acceleration
+// that this takes in its time: constant one way, then the other.
 class Decay {
  public:
   Decay() = default;
@@ -33,7 +39,7 @@ inline constexpr float kFastestTurn = 8;
 // How far, m, what hangs on a joint reaches from it.
 float lever_of(const Skeleton& skeleton, Joint joint);
 
-// Seconds in which a velocity, m/s, is taken off with at most 20 m/s2.
+// Seconds in which a velocity, m/s, is taken off with at most 12 m/s2.
 float stopping_seconds(Vec3 velocity);
 
 // The decay of a rotation that was `before` and `shown` in the last two ticks and from now on

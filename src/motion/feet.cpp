@@ -18,7 +18,7 @@ constexpr float kMostSink = 0.1f;         // m: a foot for which they would sink
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
 constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
-constexpr float kFootAcceleration = 25;   // m/s2
+constexpr float kFootAcceleration = 17;   // m/s2
 constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take off
 constexpr float kLongestStep = 0.45f;     // s: for that
 constexpr float kLongestWait = 0.12f;     // m: how far a clip's foot may go ahead of one that waits
@@ -193,7 +193,7 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
     stand(foot, skeleton_.toe_height());
   } else {
     // Its goal has moved: no less time than that takes at kFootAcceleration (blend_of).
-    const float needed = std::sqrt(5.8f * glm::length(on_ground(offset)) / kFootAcceleration);
+    const float needed = seconds_to_move(glm::length(on_ground(offset)), kFootAcceleration);
     const Vec3 goal = on_ground(now.position[ball]) + kUp * ball_floor(skeleton_, foot.shown);
     begin_move(foot, Mode::step, foot.led + moved - goal,
                (moved - on_ground(clip_moved)) / kTickSeconds,

@@ -23,15 +23,13 @@ constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 Playback::Playback(const Skeleton& body, const PlaybackSettings& settings)
     : skeleton_(body), settings_(settings), feet_(body, settings) {}
 
-// A quintic over T s moves by d with an acceleration of at most 5.8 d / T^2 and takes off a
-// velocity v with at most 3.9 v / T. A clip that is stitched to a clip is near it by construction;
-// a body that was simulated may lie or fly anywhere, and takes the longer the more it has to
-// change.
+// A clip that is stitched to a clip is near it by construction; a body that was simulated may lie
+// or fly anywhere, and takes the longer the more it has to change.
 float Playback::blend_of(const Pose& now, const Pose& after,
                          const std::array<bool, 2>& arms_by_joints) const {
   // m/s2: of a limb that goes where it should be; a body that lies has the time, and between two
   // clips nothing is to be caught up with
-  const float most_acceleration = feet_.lies() ? 14.0f : catches_up_ ? 25.0f : 20.0f;
+  const float most_acceleration = feet_.lies() ? 10.0f : catches_up_ ? 17.0f : 14.0f;
   float seconds = settings_.blend_seconds;
   for (const Side side : kSides) {
     if (arms_by_joints[static_cast<std::size_t>(side)]) {
@@ -49,8 +47,8 @@ float Playback::blend_of(const Pose& now, const Pose& after,
     const float far = glm::distance(shown.position[j] + moved, clip.position[j]);
     const float fast =
         glm::distance(moved, clip_next.position[j] - clip.position[j]) / kTickSeconds;
-    seconds = std::max({seconds, std::sqrt(5.8f * far / most_acceleration),
-                        3.9f * fast / (2 * most_acceleration)});
+    seconds = std::max({seconds, seconds_to_move(far, most_acceleration),
+                        seconds_to_stop(fast, 2 * most_acceleration)});
   }
   return std::min(seconds, settings_.longest_blend);
 }
@@ -58,12 +56,12 @@ float Playback::blend_of(const Pose& now, const Pose& after,
 // The same of the trunk of a body that is up, by how far it leans off the clip's: no one is upright
 // again as soon as a foot is down.
 float Playback::trunk_seconds(const WorldPose& now) const {
-  constexpr float kMostAcceleration = 5;  // m/s2: of the head over the hips
+  constexpr float kMostAcceleration = 3.5f;  // m/s2: of the head over the hips
   const WorldPose shown = world_pose(skeleton_, shown_);
   const auto head = [](const WorldPose& world) {
     return world.position[index(Joint::head)] - world.position[index(Joint::hips)];
   };
-  const float seconds = std::sqrt(5.8f * glm::distance(head(shown), head(now)) / kMostAcceleration);
+  const float seconds = seconds_to_move(glm::distance(head(shown), head(now)), kMostAcceleration);
   return std::clamp(seconds, blend_seconds_, settings_.longest_blend);
 }
 
@@ -81,7 +79,7 @@ float Playback::swing_seconds(Side side, const Limb& limb, const Pose& now,
   const float arc = glm::length(swing) * reach_share(skeleton_, limb, world_pose(skeleton_, now)) *
                         (skeleton_.bone(limb.middle) + lower) +
                     std::abs(bends) * lower;
-  return std::sqrt(5.8f * arc / most_acceleration);
+  return seconds_to_move(arc, most_acceleration);
 }
 
 // The hips of a body that is up are back sooner than its farthest limb: legs that go where the clip
@@ -90,9 +88,9 @@ Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
   if (!catches_up_) return {offset, velocity, blend_seconds_};
   float seconds = blend_seconds_;
   if (!feet_.lies()) {
-    constexpr float kMostAcceleration = 12;  // m/s2
-    const float needed = std::max(std::sqrt(5.8f * glm::length(offset) / kMostAcceleration),
-                                  3.9f * glm::length(velocity) / (2 * kMostAcceleration));
+    constexpr float kMostAcceleration = 8;  // m/s2
+    const float needed = std::max(seconds_to_move(glm::length(offset), kMostAcceleration),
+                                  seconds_to_stop(glm::length(velocity), 2 * kMostAcceleration));
     seconds = std::min(seconds, std::max(settings_.blend_seconds, needed));
   }
   return {offset, velocity, seconds, std::min(stopping_seconds(velocity), seconds)};

@@ -2,7 +2,7 @@
 // Playback: one fighter's segments become one continuous motion.
 //
 // At a seam the difference to the new clip is inertialized (Bollo 2018): it starts from the present
-// pose and velocity and decays along a quintic, so that even an interrupted blend does not jump.
+// pose and velocity and decays (decay.h), so that even an interrupted blend does not jump.
 // Hands and feet are led by where they are, not by joint angles: those of an arm thrown straight
 // cannot decay one by one without throwing the fist aside or bending the elbow backwards. What the
 // feet do is in feet.h.
