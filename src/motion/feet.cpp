@@ -11,6 +11,7 @@ namespace ringcraft {
 namespace {
 
 constexpr float kStraightest = 0.95f;     // of the leg's length: beyond it the hips sink
+constexpr float kBends = 0.3f;            // 1/s: nor has it to bend faster than that
 constexpr float kSinkSoft = 0.012f;       // m: over which that sets in, and more where they rise
 constexpr float kSinkSoftest = 0.05f;     // m
 constexpr float kSinkBrake = 25;          // m/s2: so fast that they are braked by this
@@ -499,8 +500,10 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
     const float seam =
         kStraightest + (foot.reach - kStraightest) * glm::smoothstep(0.0f, 1.0f, foot.reach_left);
     foot.reach_left = std::max(0.0f, foot.reach_left - kTickSeconds / blend_seconds_);
-    straightest[i] = std::clamp(std::max(seam, reach_share(skeleton_, leg(side), clip_world)),
-                                kStraightest, kLongestLeg);
+    foot.straightest = std::clamp(std::max({seam, reach_share(skeleton_, leg(side), clip_world),
+                                            foot.straightest - kBends * kTickSeconds}),
+                                  kStraightest, kLongestLeg);
+    straightest[i] = foot.straightest;
     const float over = too_high(hip, ankle[i], straightest[i]);
     const float rises = started_ ? std::max(0.0f, over - foot.over) / kTickSeconds : 0.0f;
     foot.over = over;

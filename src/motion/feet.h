@@ -84,8 +84,9 @@ class Feet {
     Vec3 clip_ball{};            // the clip's, one tick ago
     Quat clip_turn;              // the same of the foot's world rotation
     Knee knee;
-    float reach = 0;       // at the seam, as a share of the leg's length
-    float reach_left = 0;  // 1 at the seam .. 0: what of that still counts
+    float straightest = 0;  // share of its length to which the leg may be straight
+    float reach = 0;        // at the seam, as a share of the leg's length
+    float reach_left = 0;   // 1 at the seam .. 0: what of that still counts
 
     // Where the ball would be shown next if nothing changed, and how far that is from here; what
     // went by joints was kept inside their ranges.
