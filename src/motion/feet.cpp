@@ -41,7 +41,8 @@ constexpr float kStaysUp = 10;            // m/s2: braked by no more than that f
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongestLeg = 0.9995f;    // of its length: where nothing is eased any more
 constexpr float kKneeAcceleration = 60;   // m/s2: of a knee off its leg's line, beyond the clip's
-constexpr float kKneeRate = 30;           // 1/s: at which what eases it fades
+constexpr float kBallAcceleration = 50;   // m/s2: the same of the ball of a foot
+constexpr float kEasingRate = 30;         // 1/s: at which what eases them fades
 constexpr float kEased = 1e-4f;           // m: less than that is nothing
 constexpr float kMostEasing = 0.015f;     // m: by which the hips move for that
 constexpr float kUpright = 0.7f;          // of its length: a leg that stands no higher is not eased
@@ -147,15 +148,16 @@ bool Feet::stands_still(const Foot& foot) const {
 
 // What kept a foot off the place where it stands (the range of its ankle) may be over at a seam: it
 // stands where it is, or slides to rest from there.
-void Feet::stand_as_shown(Foot& foot) const {
+bool Feet::stand_as_shown(Foot& foot) const {
   constexpr float kOff = .005f;  // m
   const float floor = ball_floor(skeleton_, foot.shown);
   const Vec3 off = foot.ball - foot.place - kUp * floor - foot.offset.value();
-  if (glm::length(off) < kOff) return;
+  if (glm::length(off) < kOff) return false;
   const Vec3 moved = on_ground(foot.ball - foot.ball_before), slides = moved / kTickSeconds;
   const Vec3 stops = slides * (settings_.land_seconds / 3);
   foot.place = on_ground(foot.ball) + moved + stops;
   foot.offset = {kUp * (foot.ball.y - floor) - stops, slides, settings_.land_seconds};
+  return true;
 }
 
 void Feet::stitch_foot(Side side, const Seam& seam) {
@@ -166,10 +168,11 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
                              turn_seconds, 0, hips_turn);
   const Vec3 clip_moved = after.position[ball] - now.position[ball];
   foot.clip_ball = now.position[ball] - clip_moved;
-  Knee& knee = foot.knee;  // what it was eased by is part of what is shown
+  // What they were eased by is part of what is shown.
+  const Easing<Vec3> path{foot.ball, foot.ball_before, foot.clip_ball, foot.clip_ball - clip_moved};
   const float clip = bend_of(now, leg(side)), clip_moves = bend_of(after, leg(side)) - clip;
-  knee = {knee.shown,        knee.shown_before, knee.shown,
-          knee.shown_before, clip - clip_moves, clip - 2 * clip_moves};
+  foot.knee.path = {foot.knee.shown, foot.knee.shown_before, clip - clip_moves,
+                    clip - 2 * clip_moves};
   foot.reach = reach_share(skeleton_, leg(side), shown);
   foot.reach_left = 1;
   foot.over = too_high(shown.position[index(leg(side).root)], shown.position[end],
@@ -181,7 +184,11 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
   foot.by_joints = simulated && !stands_still(foot);
   foot.lift = {};
-  if (foot.mode == Mode::held) return stand_as_shown(foot);
+  if (foot.mode == Mode::held) {
+    if (stand_as_shown(foot)) foot.path = path;
+    return;
+  }
+  foot.path = path;
   foot.led_before = foot.ball_before;  // as it was amended
   foot.led = foot.ball;
   const Vec3 moved = foot.led - foot.led_before;
@@ -407,6 +414,7 @@ Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, f
   ball.y = std::max(ball.y, started_ ? std::min(floor, foot.ball.y) : floor);
   foot.led_before = started_ ? foot.led : ball;
   foot.led = ball;
+  foot.rests = foot.mode == Mode::held && foot.offset.done();
   foot.offset.step(kTickSeconds);
   foot.load =
       foot.mode == Mode::held ? std::min(1.0f, foot.load + kTickSeconds / kLoadSeconds) : 0.0f;
@@ -422,32 +430,15 @@ float Feet::too_high(Vec3 hip, Vec3 ankle, float straightest) const {
   return line.y - std::sqrt(reach * reach - across * across);
 }
 
-// As a critically damped spring lets it, once what is wanted of it changes its speed faster than it
-// may, beyond what the clip's does.
-void Feet::Knee::follow(float wants, float clip_wants) {
-  const float own = std::abs(clip_wants - 2 * clip + clip_before);
-  const float most = kKneeAcceleration * kTickSeconds * kTickSeconds + own;
-  const float change = wants - 2 * wanted + wanted_before;
-  const float started = velocity - (change - std::clamp(change, -most, most)) / kTickSeconds;
-  const float slope = started + eased * kKneeRate;
-  const float fade = std::exp(-kKneeRate * kTickSeconds);
-  eased = (eased + slope * kTickSeconds) * fade;
-  velocity = slope * fade - eased * kKneeRate;
-  wanted_before = wanted;
-  wanted = wants;
-  clip_before = clip;
-  clip = clip_wants;
-}
-
 // How far, m, the hips rise so that the knee stands where it is eased to.
 float Feet::rise_for(Side side, const WorldPose& world) const {
-  const Knee& knee = of(side).knee;
+  const Easing<float>& knee = of(side).knee.path;
   const Limb limb = leg(side);
   const float thigh = skeleton_.bone(limb.middle), shin = skeleton_.bone(limb.end);
   const Vec3 line = world.position[index(limb.root)] - world.position[index(limb.end)];
   const float length = glm::length(line);
-  if (std::abs(knee.eased) < kEased || line.y < kUpright * (thigh + shin)) return 0;
-  const float stands = std::clamp(knee.wanted + knee.eased, 0.0f, std::min(thigh, shin));
+  if (std::abs(knee.eased()) < kEased || line.y < kUpright * (thigh + shin)) return 0;
+  const float stands = std::clamp(knee.wanted() + knee.eased(), 0.0f, std::min(thigh, shin));
   const auto along = [&](float bone) { return std::sqrt(bone * bone - stands * stands); };
   return std::clamp((along(thigh) + along(shin) - length) * length / line.y, -kMostEasing,
                     kMostEasing);
@@ -459,8 +450,8 @@ float Feet::knees_ask(const WorldPose& world, const WorldPose& clip) {
   for (const Side side : kEachFoot) {
     Knee& knee = of(side).knee;
     const float wants = bend_of(world, leg(side)), clip_wants = bend_of(clip, leg(side));
-    if (!started_) knee = {wants, wants, wants, wants, clip_wants, clip_wants};
-    knee.follow(wants, clip_wants);
+    if (!started_) knee = {wants, wants, {wants, wants, clip_wants, clip_wants}};
+    knee.path.follow(wants, clip_wants, kKneeAcceleration, kEasingRate);
     const float rise = rise_for(side, world);
     if (std::abs(rise) > std::abs(most)) most = rise;
   }
@@ -485,12 +476,18 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
     };
     foot_rotation[i] = foot.by_joints ? world.rotation[end] : led_rotation();
     const float floor = ball_floor(skeleton_, foot_rotation[i]);
-    const Vec3 wanted =
-        ball_of(side, contacts.of(side), clip_world.position[ball], world.position[ball], floor);
+    const Vec3 clip_ball = clip_world.position[ball], clip_moved = clip_ball - foot.clip_ball;
+    Vec3 wanted = ball_of(side, contacts.of(side), clip_ball, world.position[ball], floor);
     if (foot.by_joints && foot.mode != Mode::swing) {
       lead(foot, clip_world.rotation[end], hips_turn);
       foot_rotation[i] = led_rotation();
+      foot.path = {foot.ball, foot.ball_before, clip_ball - clip_moved,
+                   clip_ball - 2.0f * clip_moved};
     }
+    if (!started_) foot.path = {wanted, wanted, clip_ball, clip_ball};
+    foot.path.follow(wanted, clip_ball, kBallAcceleration, kEasingRate);
+    wanted += foot.path.eased();
+    wanted.y = std::max(wanted.y, std::min(floor, foot.path.wanted().y));
     foot.clip_turn = clip_world.rotation[end];
     foot.turn.step(kTickSeconds);
     height[i] = wanted.y;

@@ -7,6 +7,7 @@
 
 #include "motion/clip.h"
 #include "motion/decay.h"
+#include "motion/easing.h"
 #include "motion/playback_settings.h"
 
 namespace ringcraft {
@@ -61,9 +62,7 @@ class Feet {
   // goes far where its foot goes little, and starts and stops gently all the same.
   struct Knee {
     float shown = 0, shown_before = 0;
-    float wanted = 0, wanted_before = 0, clip = 0, clip_before = 0;  // one tick and two ticks ago
-    float eased = 0, velocity = 0;  // by how much it is shown off what is wanted, m and m/s
-    void follow(float wants, float clip_wants);
+    Easing<float> path;
   };
   struct Foot {
     Mode mode = Mode::swing;
@@ -71,6 +70,7 @@ class Feet {
     Decay offset;            // of the ball to where it is going
     Decay turn;              // of the foot's world rotation to the clip's
     bool by_joints = false;  // swings as the leg's joints take it
+    bool rests = false;      // held, and has come down
     bool strained = false;   // its leg is near the end of its range
     float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
@@ -84,6 +84,7 @@ class Feet {
     Vec3 clip_ball{};            // the clip's, one tick ago
     Quat clip_turn;              // the same of the foot's world rotation
     Knee knee;
+    Easing<Vec3> path;      // of the ball
     float straightest = 0;  // share of its length to which the leg may be straight
     float reach = 0;        // at the seam, as a share of the leg's length
     float reach_left = 0;   // 1 at the seam .. 0: what of that still counts
@@ -100,13 +101,13 @@ class Feet {
 
   Foot& of(Side side) { return feet_[static_cast<std::size_t>(side)]; }
   const Foot& of(Side side) const { return feet_[static_cast<std::size_t>(side)]; }
-  static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.offset.done(); }
+  static bool stands(const Foot& foot) { return foot.mode == Mode::held && foot.rests; }
   bool stands_still(const Foot& foot) const;
   static float clearing_rise(Decay path, float seconds);
   void stitch_foot(Side side, const Seam& seam);
   void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
   void stand(Foot& foot, float floor) const;
-  void stand_as_shown(Foot& foot) const;
+  bool stand_as_shown(Foot& foot) const;
   bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
