@@ -166,10 +166,29 @@ TEST(StruckBodies, PassToTheirClipWithoutAPop) {
       {"knee_rear", .398, Part::left_upper_arm, {-11.354f, 0, 16.664f}, .645f},
       // spinning: arms that came round with the body and with their own swing
       {"roundhouse_rear_low_near", .41566952, Part::chest, {18.825232f, 0, 29.72795f}, .90457034f},
-      {"jab_low_kick", .593401, Part::right_thigh, {-13.482088f, 0, -17.606865f}, .70505685f}};
+      {"jab_low_kick", .593401, Part::right_thigh, {-13.482088f, 0, -17.606865f}, .70505685f},
+      // legs in the air, of which what hips, knee and ankle brake adds up at the toes
+      {"step_back_away", .19019014, Part::left_thigh, {82.42688f, 0, -68.067696f}, .8896607f},
+      {"jab_jab", .60020473, Part::right_thigh, {-119.43821f, 0, 14.577409f}, .6711317f},
+      {"roundhouse_rear_middle", .12283563, Part::head, {-.52029157f, 0, -48.243404f}, .9484754f}};
   for (const StruckCase& c : cases) {
     EXPECT_LT(velocity_jump(answer_to_case(c), 19, 60), 1.5f) << c.action;
   }
+}
+
+// A clip bends a leg that has been straight to lift its foot, which waits here until the other is
+// down: the hips do not drop to where that leg would be as bent. They dropped by 1.1 m/s in a
+// frame.
+TEST(StruckBodies, DoNotDropWhereAFootWaitsToLift) {
+  const HitAnswer answer = answer_to_case(
+      {"step_forward", .09813472, Part::chest, {-29.930508f, 0, 60.724922f}, .86317194f});
+  const auto frames = frames_from_hit(answer);
+  float jump = 0;  // m/s between two frames at 60 Hz
+  for (std::size_t t = 74; t < 100; ++t) {
+    const float change = frames[t].hips.y - 2 * frames[t - 2].hips.y + frames[t - 4].hips.y;
+    jump = std::max(jump, 60 * std::abs(change));
+  }
+  EXPECT_LT(jump, .85f);
 }
 
 // A leg that was lifted when the blow landed, over a clip whose feet stand and whose knees
