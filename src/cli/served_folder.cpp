@@ -128,6 +128,11 @@ bool is_hidden(const std::string& name) {
   return name.starts_with('.');
 }
 
+// Whether find() would answer for it: what is refused is not listed.
+bool is_listed(const std::string& name) {
+  return path_of_target("/" + percent_encoded(name)).has_value();
+}
+
 }  // namespace
 
 RangeAnswer range_answer(std::string_view header, std::uint64_t size) {
@@ -264,9 +269,9 @@ std::string ServedFolder::index_page() const {
     if (++seen > kMostEntries) break;
     const std::string name = at->path().filename().string();
     std::error_code unreadable;
-    if (is_hidden(name) || at.depth() >= kDeepest || at->is_symlink(unreadable))
+    if (!is_listed(name) || at.depth() >= kDeepest || at->is_symlink(unreadable))
       at.disable_recursion_pending();
-    if (is_hidden(name)) continue;
+    if (!is_listed(name)) continue;
     for (std::size_t i = 0; i < kResultPages.size(); ++i) {
       if (name != kResultPages[i].file || !at->is_regular_file(unreadable)) continue;
       rows[i].push_back({at->path().lexically_relative(root_).string(),
@@ -301,7 +306,7 @@ std::string ServedFolder::folder_page(const fs::path& folder, const std::string&
        at.increment(failed)) {
     const std::string name = at->path().filename().string();
     std::error_code unreadable;
-    if (is_hidden(name) || at->is_symlink(unreadable)) continue;
+    if (!is_listed(name) || at->is_symlink(unreadable)) continue;
     if (at->is_directory(unreadable)) {
       entries.emplace_back(name + "/", "");
     } else if (at->is_regular_file(unreadable)) {

@@ -13,6 +13,7 @@ namespace ringcraft {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Kind = Served::Kind;
@@ -121,6 +122,19 @@ TEST_F(ServedFolderTest, TheIndexNamesResultsAndEscapesWhatTheySay) {
   EXPECT_THAT(page, HasSubstr("scene &lt;script&gt;, seed 7, 30.0 s"));
   EXPECT_THAT(page, Not(HasSubstr("<script>")));
   EXPECT_THAT(page, Not(HasSubstr("Hits")));
+}
+
+TEST_F(ServedFolderTest, WhatIsRefusedIsNotListed) {
+  for (const std::string name : {"two\nlines", "back\\slash", "del\x7f", ".hidden"}) {
+    fs::create_directories(base_ / "out" / "mine" / name);
+    write("out/mine/" + name + "/fight.html", "<p>a fight");
+    ASSERT_EQ(kind("/mine/" + percent_encoded(name) + "/fight.html"), Kind::refused) << name;
+  }
+  write("out/mine/good.csv", "");
+  EXPECT_THAT(served().index_page(), AllOf(HasSubstr("a%20%3Cb"), Not(HasSubstr("mine"))));
+  const std::string page = served().find("/mine/").text;
+  EXPECT_THAT(page, AllOf(HasSubstr("good.csv"), Not(HasSubstr("two")), Not(HasSubstr("slash")),
+                          Not(HasSubstr("del")), Not(HasSubstr("hidden"))));
 }
 
 TEST_F(ServedFolderTest, TheIndexSaysNothingOfAReportThatIsNestedDeeply) {
