@@ -90,7 +90,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   fight_options.interrupted = &interrupted;
   if (!options.quiet) {
     fight_options.progress = [&](Tick now, Tick end) {
-      tell("\r{}: {:.0f} of {:.0f} s", scene->name, seconds(now), seconds(end));
+      tell("\r{}: {:.0f} of {:g} s", scene->name, seconds(now), seconds(end));
     };
   }
   const auto begin = std::chrono::steady_clock::now();

@@ -166,8 +166,8 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, const Bou
   fill_bouts(study, results);
   study.interrupted = run.stopped();
   study.said.push_back(fmt::format(
-      "{} bouts of {:.0f} s a pairing at most, every second one with the sides swapped; ring "
-      "{:.0f} m, seed {}, library {} ({} actions, mean length {:.2f} s, {:.0f} % longer than 1 s), "
+      "{} bouts of {:g} s a pairing at most, every second one with the sides swapped; ring "
+      "{:g} m, seed {}, library {} ({} actions, mean length {:.2f} s, {:.0f} % longer than 1 s), "
       "node limit {}.",
       series.bouts, series.duration_s, series.ring_m, scene->seed, used->name(),
       used->actions().size(), mean_choice_seconds(*used), 100 * share_longer(*used, 1),

@@ -116,8 +116,8 @@ Bench run_bench(const MotionLibrary& library, const SceneFile& scene, int rounds
   options.threads = run.threads;
   options.interrupted = run.interrupted;
   for (int round = 0; round < rounds; ++round) {
-    run.say(fmt::format("round {} of {}: {:.0f} s of {}", round + 1, rounds,
-                        seconds(scene.duration), scene.name));
+    run.say(fmt::format("round {} of {}: {:g} s of {}", round + 1, rounds, seconds(scene.duration),
+                        scene.name));
     const auto begin = Clock::now();
     const FightRecord record = simulate_fight(library, scene, options);
     const double took = seconds_since(begin);

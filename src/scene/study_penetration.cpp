@@ -196,7 +196,7 @@ Study penetration_study(const MotionLibrary& library, const SceneFile& scene,
   }
   study.interrupted = run.stopped();
   study.said = {
-      fmt::format("{}: one bout of {:.0f} s a setting, seed {}. Depths are those of the shown "
+      fmt::format("{}: one bout of {:g} s a setting, seed {}. Depths are those of the shown "
                   "motion, intended contacts left out (io/quality.h).",
                   scene.name, seconds(scene.duration), scene.seed),
       fmt::format("Values: the best line in {} states of the bout without this pruning, planned "
