@@ -54,7 +54,8 @@ class Reader {
   Result<AsfSkeleton> read() {
     while (!lines_.done())
       if (auto ok = line(); !ok) return tl::unexpected(ok.error());
-    if (in_block_) return fault("the file ends within a bone", "the file is cut off");
+    if (in_block_)
+      return fault("the file ends within a bone", "the file is cut off: fetch it again");
     if (!has_hierarchy_)
       return fault("there is no :hierarchy", "give an ASF file; if it is one, it is cut off");
     if (blocks_[0].channels.empty())

@@ -59,10 +59,15 @@ Result<Json> motion_json(std::string_view text, const std::string& file) {
     if (!json.is_object())
       return input_error(file, "", "no glTF file: its JSON is no object", "give a glTF 2.0 file");
     return json;
-  } catch (const Json::exception& fault) {
-    return input_error(file, "",
-                       fmt::format("its JSON does not parse: {}", clean_name(fault.what())),
-                       kExportAgain);
+  } catch (const Json::parse_error& fault) {
+    const std::size_t at = std::min(fault.byte, text.size() + 1) - 1;
+    const std::string place = fmt::format("byte {} of its JSON", at);
+    if (at == text.size())
+      return input_error(file, place, "it ends there",
+                         "the file is empty or cut off: fetch it again");
+    return input_error(file, place, "what stands there is no JSON", kExportAgain);
+  } catch (const Json::exception&) {
+    return input_error(file, "", "its JSON has a number that cannot be used", kExportAgain);
   }
 }
 

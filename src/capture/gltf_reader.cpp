@@ -114,6 +114,7 @@ class Reader {
       wrong = exception.what();
     }
     if (loaded) return {};
+    while (wrong.ends_with('\n')) wrong.pop_back();
     std::replace(wrong.begin(), wrong.end(), '\n', ' ');
     return fault("", "no glTF 2.0 file that can be read: " + clean_name(wrong));
   }

@@ -138,7 +138,7 @@ TEST(Gltf, HostileFilesAreRefusedWithAReason) {
   cut.resize(cut.size() - 8);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Case cases[] = {
-      {"", "JSON"},
+      {"", "ends"},
       {"glTF", "header"},
       {"{}", "no glTF 2.0 file"},
       {"[1,2]", "no object"},
@@ -191,6 +191,23 @@ TEST(Gltf, HostileFilesAreRefusedWithAReason) {
     const Error error = refused(c.bytes);
     EXPECT_THAT(error.what, HasSubstr(c.says));
     EXPECT_FALSE(error.what.empty());
+    EXPECT_FALSE(error.remedy.empty());
+  }
+}
+
+TEST(Gltf, JsonThatIsNoneIsRefusedInOurWordsWithItsPlace) {
+  struct Case {
+    std::string bytes, place, says;
+  };
+  for (const Case& c : {Case{"", "byte 0 of its JSON", "it ends there"},
+                        Case{"{\"nodes\": [", "byte 11 of its JSON", "it ends there"},
+                        Case{"glT", "byte 0 of its JSON", "no JSON"},
+                        Case{std::string(4, '\0'), "byte 0 of its JSON", "no JSON"},
+                        Case{"{\"a\":\x1b[31m", "byte 5 of its JSON", "no JSON"},
+                        Case{"{\"a\": 1e999}", "", "a number that cannot be used"}}) {
+    const Error error = refused(c.bytes);
+    EXPECT_EQ(error.place, c.place);
+    EXPECT_THAT(error.what, HasSubstr(c.says));
     EXPECT_FALSE(error.remedy.empty());
   }
 }
