@@ -20,10 +20,11 @@ RawClip resting(const AsfSkeleton& skeleton, const std::string& file, double fra
   std::vector<bool> carries(skeleton.bones.size());
   for (const AsfBone& bone : skeleton.bones) {
     if (bone.parent >= 0) carries[static_cast<std::size_t>(bone.parent)] = true;
-    clip.joints.push_back({bone.name, bone.parent, bone.start, {}});
+    clip.joints.push_back({bone.name, bone.parent, bone.start});
   }
-  for (std::size_t j = 0; j < clip.joints.size(); ++j)
-    if (!carries[j]) clip.joints[j].end = skeleton.bones[j].along;
+  for (std::size_t j = 0; j < carries.size(); ++j)
+    if (const AsfBone& bone = skeleton.bones[j]; !carries[j] && glm::length(bone.along) > 0)
+      clip.joints.push_back({bone.name + kEndSite, static_cast<int>(j), bone.along});
   return clip;
 }
 
@@ -100,7 +101,7 @@ class Reader {
       clip_.translation.push_back(joint.offset);
       clip_.rotation.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
     }
-    given_.assign(clip_.joints.size(), false);
+    given_.assign(skeleton_.bones.size(), false);
     return {};
   }
 

@@ -174,9 +174,13 @@ class Reader {
     if (lowered(word) != "offset") return unexpected_word(word, "OFFSET");
     auto v = read_vector();
     if (!v) return tl::unexpected(v.error());
-    clip_.joints[joint].end = *v;
     word = words_.next();
     if (word != "}") return unexpected_word(word, "'}'");
+    if (glm::length(*v) == 0) return {};
+    if (clip_.joints.size() >= limits_.joints)
+      return fault(words_.line(), fmt::format("more than {} joints", limits_.joints));
+    clip_.joints.push_back({clip_.joints[joint].name + kEndSite, static_cast<int>(joint), *v});
+    channels_.emplace_back();
     return {};
   }
 

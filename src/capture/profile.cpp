@@ -75,6 +75,10 @@ std::array<int, kJointCount> found_joints(const SkeletonProfile& profile, const 
   std::array<int, kJointCount> found{};
   for (std::size_t j = 0; j < kJointCount; ++j) {
     found[j] = profile.source[j].empty() ? -1 : find_joint(profile, clip, profile.source[j]);
+    // A forearm whose end alone is known: the hand rests on it.
+    if (found[j] < 0 && (joint_at(j) == Joint::left_hand || joint_at(j) == Joint::right_hand))
+      found[j] = find_joint(profile, clip,
+                            profile.source[static_cast<std::size_t>(kParent[j])] + kEndSite);
     const int carrier = mapped_carrier(found, j);
     if (found[j] >= 0 && carrier >= 0 && !profile.detached[j] &&
         !hangs_below(clip, found[j], carrier))

@@ -12,8 +12,10 @@ struct RawJoint {
   std::string name;
   int parent = -1;  // index; parents stand before their children
   Vec3 offset{};    // from the parent in the rest pose, file units
-  Vec3 end{};       // offset of its end site; zero where there is none
 };
+
+// What a joint's end site is called after the joint's name: it is a joint that never turns.
+inline constexpr const char* kEndSite = " End Site";
 
 // Limits on what a file may ask for.
 struct CaptureLimits {

@@ -55,7 +55,8 @@ TEST(Bvh, EveryFrameOfAToyIsWhatArithmeticSays) {
     // by 90.
     expect_near(pose.position[1],
                 {static_cast<float>(f) + 2 * std::cos(turn), 1, -2 * std::sin(turn)});
-    expect_near(pose.rotation[1] * clip->joints[1].end, {0, 3, 0});
+    expect_near(pose.position[2] - pose.position[1], {0, 3, 0});
+    EXPECT_EQ(clip->joints[2].name, "Arm End Site");
   }
 }
 

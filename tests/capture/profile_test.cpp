@@ -15,7 +15,7 @@ RawClip skeleton_of(const std::vector<std::tuple<std::string, std::string, Vec3>
   RawClip clip;
   clip.file = "test.bvh";
   for (const auto& [name, parent, offset] : joints)
-    clip.joints.push_back({name, parent.empty() ? -1 : clip.find(parent), offset, {}});
+    clip.joints.push_back({name, parent.empty() ? -1 : clip.find(parent), offset});
   return clip;
 }
 
@@ -268,6 +268,18 @@ TEST(Profile, FourLimbsAreEnoughToBeKnown) {
   const auto best = best_profile(profiles(), clip);
   ASSERT_TRUE(best) << to_string(best.error());
   EXPECT_EQ(best->name, "mixamo");
+}
+
+TEST(Profile, AForearmThatEndsWithoutAHandHasOneAtItsEndSite) {
+  RawClip clip = motion_builder("mixamorig:", true);
+  for (const std::string side : {"Left", "Right"})
+    clip.joints[static_cast<std::size_t>(clip.find("mixamorig:" + side + "Hand"))].name =
+        "mixamorig:" + side + "ForeArm" + kEndSite;
+  const auto best = best_profile(profiles(), clip);
+  ASSERT_TRUE(best) << to_string(best.error());
+  EXPECT_EQ(best->name, "mixamo");
+  EXPECT_EQ(map_joints(*best, clip)->source[index(Joint::left_hand)],
+            clip.find("mixamorig:LeftForeArm End Site"));
 }
 
 TEST(Profile, AJointUnderTheWrongCarrierDoesNotCount) {
