@@ -46,7 +46,8 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
   CommonOptions found = options;
   if (found.out.empty()) found.out = "out/batch_" + scene->name;
   const std::filesystem::path folder = found.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  if (const auto made = output_folder(found, {}, study_file_names(), files_of(*scene)); !made)
+    return fail(made.error());
   const auto lock = lock_folder(folder);  // from reading the bouts to the last one written
   if (!lock) return fail(lock.error());
   const auto library = library_of(*scene);

@@ -19,8 +19,9 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   if (asked.duration_s) asked_for.push_back(fmt::format("duration_s={}", *asked.duration_s));
   const auto scene = scene_with(scene_name, with, asked_for);
   if (!scene) return fail(scene.error());
-  const std::filesystem::path folder = options.out.empty() ? "out/bench" : options.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto folder =
+      output_folder(options, "out/bench", {"bench.json", "timing.json"}, files_of(*scene));
+  if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
   StudyRun run{options.threads, &interrupted, {}};
@@ -30,7 +31,7 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   const nlohmann::json same = bench_json(bench, *scene, *library);
   const nlohmann::json clock = bench_timing_json(bench, options.threads);
   const auto written = write_files(
-      folder, {{"bench.json", same.dump(1) + "\n"}, {"timing.json", clock.dump(1) + "\n"}});
+      *folder, {{"bench.json", same.dump(1) + "\n"}, {"timing.json", clock.dump(1) + "\n"}});
   if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}\n", nlohmann::json{{"bench", same}, {"timing", clock}}.dump(1));

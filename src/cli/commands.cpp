@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/file.h"
+
 namespace ringcraft {
 
 std::atomic<bool> interrupted = false;
@@ -35,6 +37,16 @@ EndAtSignal::EndAtSignal() {
 
 EndAtSignal::~EndAtSignal() {
   --end_at_signal;
+}
+
+Result<std::filesystem::path> output_folder(const CommonOptions& options,
+                                            const std::filesystem::path& usual,
+                                            const std::vector<std::string>& names,
+                                            const std::vector<std::filesystem::path>& inputs) {
+  std::filesystem::path folder = options.out.empty() ? usual : std::filesystem::path(options.out);
+  if (auto may = may_write(folder, names, inputs); !may) return tl::unexpected(may.error());
+  if (auto made = make_output_folder(folder); !made) return tl::unexpected(made.error());
+  return folder;
 }
 
 int fail(const Error& error) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -120,6 +121,14 @@ void tell(fmt::format_string<Values...> text, Values&&... values) {
 
 // Tells one line and returns the error's exit code.
 int fail(const Error& error);
+
+// The folder for results, `usual` where --out names none. It is made before the work: an error
+// where it cannot be written to, or one of the `names` that are to stand there is one of the
+// `inputs`.
+Result<std::filesystem::path> output_folder(const CommonOptions& options,
+                                            const std::filesystem::path& usual,
+                                            const std::vector<std::string>& names,
+                                            const std::vector<std::filesystem::path>& inputs);
 
 int run_fight(const std::string& scene, const FightCommandOptions& fight,
               const CommonOptions& options);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "base/file.h"
 #include "capture/character.h"
 #include "capture/profile.h"
 #include "cli/commands.h"
@@ -63,21 +62,16 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
                  "no BVH is asked for that it would be of", "add bvh to --export"});
   }
   if (const auto page = page_template(); !page) return fail(page.error());
-  const std::filesystem::path folder = options.out.empty()
-                                           ? std::filesystem::path("out") / scene->name
-                                           : std::filesystem::path(options.out);
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
   const auto skeleton = export_skeleton(fight.profile);
   if (!skeleton) return fail(skeleton.error());
   const auto characters = characters_of(*scene);
   if (!characters) return fail(characters.error());
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
-  std::vector<std::filesystem::path> inputs = scene->files;
-  inputs.push_back(scene->library);
-  for (const SceneFighter& fighter : scene->fighters) inputs.push_back(fighter.character);
-  const auto names = fight_file_names(scene->fighters.size(), extras);
-  if (const auto may = may_write(folder, names, inputs); !may) return fail(may.error());
+  const auto folder =
+      output_folder(options, std::filesystem::path("out") / scene->name,
+                    fight_file_names(scene->fighters.size(), extras), files_of(*scene));
+  if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
 
@@ -99,7 +93,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   if (!options.quiet) tell("\n");
 
   const auto summary =
-      write_fight(folder, *scene, *library, record, wall.count(), options.threads, extras);
+      write_fight(*folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
   const std::string& said = options.json ? summary->report : summary->text;
   if (options.summary_to_stderr) {

@@ -187,10 +187,14 @@ int run_sweep(const MotionLibrary& library, const HitQuery& query, const HitOpti
 int run_hit(const HitOptions& hit, const CommonOptions& options) {
   const auto query = query_from(hit);
   if (!query) return fail(query.error());
+  std::vector<std::string> names = {"hit.glb", "hit.html", "events.jsonl", "hit.json"};
+  if (!hit.sweep.empty()) names = {"hit_sweep.csv", "hit_sweep.json", "hit_sweep.svg"};
+  const auto folder =
+      output_folder(options, "out/hit", names, {hit.library, hit.body, hit.attacker});
+  if (!folder) return fail(folder.error());
   const auto library = load_library(hit.library);
   if (!library) return fail(library.error());
-  const std::filesystem::path folder = options.out.empty() ? "out/hit" : options.out;
-  if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, folder);
+  if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, *folder);
   if (const auto page = page_template(); !page) return fail(page.error());
   const auto answer = simulate_hit(*library, *query);
   if (!answer) return fail(answer.error());
@@ -207,15 +211,15 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   const auto page =
       fight_html(glb, events, {{"scene", "hit"}, {"duration_s", seconds(answer->timeline.end)}});
   if (!page) return fail(page.error());
-  const auto written = write_files(folder, {{"hit.glb", glb},
-                                            {"hit.html", *page},
-                                            {"events.jsonl", events},
-                                            {"hit.json", json_text(numbers, 1) + "\n"}});
+  const auto written = write_files(*folder, {{"hit.glb", glb},
+                                             {"hit.html", *page},
+                                             {"events.jsonl", events},
+                                             {"hit.json", json_text(numbers, 1) + "\n"}});
   if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}\n", json_text(numbers, 1));
   } else {
-    fmt::print("{}; open {}\n", sentence_of(*query, *answer), (folder / "hit.html").string());
+    fmt::print("{}; open {}\n", sentence_of(*query, *answer), (*folder / "hit.html").string());
   }
   return 0;
 }

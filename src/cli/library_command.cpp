@@ -50,14 +50,14 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
     fmt::print("{}\n", json_text(rows, 1));
     return 0;
   }
-  const std::filesystem::path folder = options.out.empty() ? "out/library" : options.out;
-  if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+  const auto folder = output_folder(options, "out/library", {"library.html"}, {name});
+  if (!folder) return fail(folder.error());
   const std::string page = library_page(*library, table_of(*library, options));
   if (interrupted) return 130;
-  if (const auto written = write_files(folder, {{"library.html", page}}); !written)
+  if (const auto written = write_files(*folder, {{"library.html", page}}); !written)
     return fail(written.error());
   fmt::print("{} actions; open {}\n", library->actions().size(),
-             (folder / "library.html").string());
+             (*folder / "library.html").string());
   return 0;
 }
 

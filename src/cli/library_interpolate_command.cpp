@@ -148,6 +148,10 @@ nlohmann::json json_of(const FamilyFigures& f) {
 
 int run_library_interpolate(const std::string& name, const InterpolateOptions& asked,
                             const CommonOptions& options) {
+  if (!options.out.empty()) {
+    const auto folder = output_folder(options, {}, {"blends.svg"}, {name});
+    if (!folder) return fail(folder.error());
+  }
   const auto library = load_library(name);
   if (!library) return fail(library.error());
   // What was made before is made again.

@@ -42,6 +42,13 @@ Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOption
   return read_scene(name_or_path, sets);
 }
 
+std::vector<std::filesystem::path> files_of(const SceneFile& scene) {
+  std::vector<std::filesystem::path> files = scene.files;
+  files.push_back(scene.library);
+  for (const SceneFighter& fighter : scene.fighters) files.push_back(fighter.character);
+  return files;
+}
+
 Result<MotionLibrary> library_of(const SceneFile& scene) {
   return library_of(scene, scene.library);
 }

@@ -14,6 +14,9 @@ namespace ringcraft {
 Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
                              const std::vector<std::string>& more = {});
 
+// Every file that the scene names, itself included.
+std::vector<std::filesystem::path> files_of(const SceneFile& scene);
+
 // The scene's library, as its fighters need it (library_for).
 Result<MotionLibrary> library_of(const SceneFile& scene);
 // Another library for the same fighters.

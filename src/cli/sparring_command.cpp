@@ -32,8 +32,8 @@ std::string first_blows_text(std::span<const Action> actions,
 
 // Records, table and page of one source of records.
 int write_sparring(const std::string& name, std::span<const Action> actions,
-                   std::span<const SparringRecord> records, const CommonOptions& options) {
-  const std::filesystem::path folder = options.out.empty() ? "out/sparring" : options.out;
+                   std::span<const SparringRecord> records, const std::filesystem::path& folder,
+                   const CommonOptions& options) {
   const OffenseDefenseTable table(records);
   const std::string json = table_json(name, actions, table);
   const auto written = write_files(folder, {{"records.csv", records_csv(actions, records)},
@@ -50,7 +50,7 @@ int write_sparring(const std::string& name, std::span<const Action> actions,
 }
 
 int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
-                     const CommonOptions& options) {
+                     const std::filesystem::path& folder, const CommonOptions& options) {
   std::vector<CapturedPerson> people;
   std::vector<Action> actions;
   for (const std::string& file : sparring.captures) {
@@ -73,7 +73,7 @@ int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
   const std::vector<SparringRecord> back = pair_records(body, takes[1], takes[0]);
   records.insert(records.end(), back.begin(), back.end());
   return write_sparring(sparring.captures[0] + " and " + sparring.captures[1], actions, records,
-                        options);
+                        folder, options);
 }
 
 }  // namespace
@@ -81,9 +81,13 @@ int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
 int run_sparring(const SparringOptions& sparring, const CommonOptions& options) {
   const auto attacker = body_named(sparring.attacker).map(make_body);
   if (!attacker) return fail(attacker.error());
-  if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, options);
   const auto defender = body_named(sparring.defender).map(make_body);
   if (!defender) return fail(defender.error());
+  const auto folder =
+      output_folder(options, "out/sparring", {"records.csv", "table.json", "table.html"},
+                    {sparring.library, sparring.attacker, sparring.defender});
+  if (!folder) return fail(folder.error());
+  if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, *folder, options);
   const auto library = load_library(sparring.library);
   if (!library) return fail(library.error());
 
@@ -97,7 +101,7 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   if (interrupted) return 130;
   for (const ActionId attack : found.unlanded)
     spdlog::warn("{} lands on no standing guard", library->action(attack).name);
-  return write_sparring(library->name(), library->actions(), found.records, options);
+  return write_sparring(library->name(), library->actions(), found.records, *folder, options);
 }
 
 }  // namespace ringcraft

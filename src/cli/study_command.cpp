@@ -359,7 +359,13 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
     one->add_option("--library", study->library, "Motion library");
     add_options(*one, entry.understands, *study);
     add_common(*one, options, entry.overrides);
-    one->callback([&code, &options, study, run = entry.run] { code = run(*study, options); });
+    one->callback([&code, &options, study, &entry] {
+      std::vector<std::filesystem::path> inputs(study->what.begin(), study->what.end());
+      inputs.insert(inputs.end(), {study->library.value_or(""), study->body});
+      const auto folder = output_folder(options, std::string("out/study_") + entry.name,
+                                        study_file_names(), inputs);
+      code = folder ? entry.run(*study, options) : fail(folder.error());
+    });
   }
 }
 

@@ -11,6 +11,9 @@ namespace ringcraft {
 int run_tree(const std::string& scene_name, const TreeOptions& tree, const CommonOptions& options) {
   const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
+  const auto folder = output_folder(options, std::filesystem::path("out") / (scene->name + "_tree"),
+                                    {"tree.json", "tree.svg"}, files_of(*scene));
+  if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());
 
@@ -21,16 +24,13 @@ int run_tree(const std::string& scene_name, const TreeOptions& tree, const Commo
   if (interrupted) return 130;
   if (!found) return fail(found.error());
 
-  const std::filesystem::path folder = options.out.empty()
-                                           ? std::filesystem::path("out") / (scene->name + "_tree")
-                                           : std::filesystem::path(options.out);
   const std::string json = tree_json(*found);
-  const auto written = write_files(folder, {{"tree.json", json}, {"tree.svg", tree_svg(*found)}});
+  const auto written = write_files(*folder, {{"tree.json", json}, {"tree.svg", tree_svg(*found)}});
   if (!written) return fail(written.error());
   if (options.json) {
     fmt::print("{}", json);
   } else {
-    fmt::print("{}{} and tree.json\n", tree_text(*found), (folder / "tree.svg").string());
+    fmt::print("{}{} and tree.json\n", tree_text(*found), (*folder / "tree.svg").string());
   }
   return 0;
 }

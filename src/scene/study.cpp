@@ -119,6 +119,10 @@ std::string study_html(const Study& study) {
       escaped(study.title), said, study_svg(study), html_table(study.table));
 }
 
+std::vector<std::string> study_file_names() {
+  return {"study.csv", "study.json", "study.svg", "study.html", "timing.json", "timing.svg"};
+}
+
 Result<void> write_study(const std::filesystem::path& folder, const Study& study) {
   const nlohmann::ordered_json timing{
       {"version", RINGCRAFT_VERSION}, {"study", study.name}, {"rows", rows_json(study.timing)}};

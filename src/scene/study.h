@@ -55,6 +55,9 @@ std::string study_svg(const Study& study);
 std::string study_html(const Study& study);       // table and picture; opens by itself
 std::string study_text(const StudyTable& table);  // columns of equal width
 
+// The files of write_study().
+std::vector<std::string> study_file_names();
+
 // study.csv, study.json, study.svg, study.html and timing.json, and timing.svg where the timing has
 // charts; each appears whole or not at all.
 Result<void> write_study(const std::filesystem::path& folder, const Study& study);

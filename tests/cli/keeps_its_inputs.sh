@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# keeps_its_inputs.sh scene|character|body|style RINGCRAFT SCENE FOLDER: a fight that would write
-# one of its results over a file that it reads is refused, and what was there stays as it was.
+# keeps_its_inputs.sh scene|character|body|style|COMMAND RINGCRAFT SCENE FOLDER: a fight, or another
+# command, that would write one of its results over a file that it reads is refused, and what was
+# there stays as it was.
 set -u
 what=$1 program=$2 scene=$3 folder=$4
 assets=$(dirname "$scene")/..
@@ -9,6 +10,13 @@ rm -rf "$folder"
 mkdir -p "$folder"
 # fight ARGUMENT...: into the folder.
 fight() { "$program" fight "$@" -q --set duration_s=0.5 --export bvh -o "$folder" 2>&1; }
+# of_other NAME FILE COMMAND...: the command into the folder, on a copy of FILE that is there as NAME.
+of_other() {
+  own=$folder/$1
+  cp "$2" "$own"
+  shift 2
+  said=$("$program" "$@" "$own" -q -o "$folder" 2>&1)
+}
 case $what in
 scene)
   own=$folder/report.json
@@ -31,6 +39,14 @@ style)
   cp "$assets/styles/balanced.toml" "$own"
   said=$(fight "$scene" --set "fighter.1.style='$own'")
   ;;
+tree) of_other tree.json "$scene" tree --at 0 ;;
+batch) of_other study.json "$scene" batch --count 1 ;;
+bench) of_other timing.json "$scene" bench ;;
+study) of_other study.csv "$scene" study cost ;;
+hit) of_other hit.json "$assets/bodies/heavyweight.toml" hit --body ;;
+sweep) of_other hit_sweep.csv "$assets/bodies/heavyweight.toml" hit --sweep tone=0:1:1 --body ;;
+sparring) of_other table.json "$assets/bodies/heavyweight.toml" sparring --attacker ;;
+interpolate) of_other blends.svg "$assets/kickboxing/library.toml" library interpolate ;;
 esac
 code=$?
 [ "$code" -eq 3 ] || fault "exit code $code: $said"

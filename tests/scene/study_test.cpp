@@ -16,6 +16,7 @@
 namespace ringcraft {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -45,6 +46,8 @@ TEST(StudyTest, FilesHoldTheSameRowsAndTheClockStandsApart) {
   const auto folder = scratch.path() / "small_study";
   ASSERT_TRUE(make_output_folder(folder));
   ASSERT_TRUE(write_study(folder, small_study()));
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    EXPECT_THAT(study_file_names(), Contains(file.path().filename().string()));
   const auto json = nlohmann::json::parse(*read_file(folder / "study.json"));
   EXPECT_EQ(json.at("rows").size(), 2u);
   EXPECT_EQ(json.at("rows")[1].at("name"), "a \"b\", c");
