@@ -378,11 +378,18 @@ Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
   return connected(folder, name, std::move(*actions), std::move(notes), settings);
 }
 
+Result<Document> read_manifest(const std::filesystem::path& path) {
+  if (begins_as_library(path))
+    return input_error(path.string(), "", "a library that is built already",
+                       "name the manifest or the captures that it was built from");
+  return read_document(path, "manifest");
+}
+
 }  // namespace
 
 Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifest,
                                             std::vector<std::string>* notes) {
-  auto document = read_document(manifest, "manifest");
+  auto document = read_manifest(manifest);
   if (!document) return tl::unexpected(document.error());
   Collector out;
   out.notes = notes;
@@ -395,7 +402,7 @@ Result<MotionLibrary> build_library(const std::filesystem::path& source,
   std::vector<std::string> notes;
   std::error_code ignored;
   if (std::filesystem::is_directory(source, ignored)) return build_folder(source, settings);
-  auto document = read_document(source, "manifest");
+  auto document = read_manifest(source);
   if (!document) return tl::unexpected(document.error());
   Collector out;
   out.notes = &notes;

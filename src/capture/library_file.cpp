@@ -10,8 +10,6 @@ namespace ringcraft {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 bool begins_as_library(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return false;  // a pipe would be waited for
@@ -21,6 +19,8 @@ bool begins_as_library(const fs::path& file) {
   head.resize(static_cast<std::size_t>(stream.gcount()));
   return looks_like_library(head);
 }
+
+namespace {
 
 // Any other is taken for a manifest.
 bool is_library_file(const fs::path& file) {

@@ -13,6 +13,9 @@ namespace ringcraft {
 // motion graph: that is the work of `library build`.
 Result<MotionLibrary> load_library(const std::filesystem::path& library);
 
+// Whether a file's first bytes are those of a built library.
+bool begins_as_library(const std::filesystem::path& file);
+
 // What `library build` and load_library() are given: a library file or a manifest as it is, a
 // folder's library.toml where it has one, else the folder.
 std::filesystem::path library_source(const std::filesystem::path& named);
