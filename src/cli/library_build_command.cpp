@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/utf8.h"
 #include "capture/library_builder.h"
@@ -83,6 +84,9 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   settings.threads = options.threads;
   if (!options.out.empty()) {  // before the work
     if (const auto may = may_write_library(options.out); !may) return fail(may.error());
+    if (const auto folder = std::filesystem::path(options.out).parent_path(); !folder.empty()) {
+      if (const auto made = make_output_folder(folder); !made) return fail(made.error());
+    }
   }
   const auto begin = std::chrono::steady_clock::now();
   const auto library = [&] {
