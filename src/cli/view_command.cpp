@@ -87,6 +87,13 @@ bool opens(std::vector<std::string> words, const std::string& address) {
 int run_view(const ViewOptions& view, const CommonOptions& options) {
   fs::path page;
   std::error_code failed;
+  const char* of_fights = !options.out.empty()    ? "--out"
+                          : options.seed          ? "--seed"
+                          : !options.sets.empty() ? "--set"
+                                                  : nullptr;
+  if (of_fights != nullptr && (fs::is_directory(view.what, failed) || is_page(view.what)))
+    return fail({ErrorKind::usage, view.what, of_fights, "of no effect on what is there already",
+                 "leave it out, or name a scene"});
   if (fs::is_directory(view.what, failed)) {
     const auto found = page_in(view.what);
     if (!found) return fail(found.error());
