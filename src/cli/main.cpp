@@ -52,6 +52,7 @@ void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) 
   if (overrides == Overrides::seed_and_values) {
     command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
         ->type_name("KEY=VALUE")
+        ->allow_extra_args(false)
         ->take_all();
   }
   add_for_stdout(command, options);
@@ -118,6 +119,7 @@ void add_hit(CLI::App& app, CommonOptions& options, int& code) {
   hit->add_option("--sweep", asked->sweep, "A map over impulse (N s), direction (deg) or tone")
       ->type_name("AXIS=FROM:TO:STEP")
       ->excludes("--strike")
+      ->allow_extra_args(false)
       ->take_all();
   hit->add_option("--tone", asked->tone, "Muscle tone")->check(within(0.0, 1.0));
   hit->add_option("--body", asked->body, "A file of assets/bodies");
@@ -153,7 +155,8 @@ void add_sparring(CLI::App& app, CommonOptions& options, int& code) {
                    "Two people of one capture space, instead of a library")
       ->type_name("A B")
       ->expected(2)
-      ->excludes("LIBRARY");
+      ->excludes("LIBRARY")
+      ->excludes("--defender");
   add_common(*sparring, options, Overrides::none);
   sparring->callback([=, &options, &code] { code = run_sparring(*asked, options); });
 }
