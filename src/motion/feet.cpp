@@ -267,6 +267,7 @@ void Feet::stand_aside(Side side, Vec3 offset) {
   foot.place += offset;
   foot.led += offset;
   foot.led_before += offset;
+  foot.load = 0;  // the hips sink for it bit by bit
 }
 
 // A clip that lifts this foot while the other is in the air on its own: it carries until the other

@@ -479,6 +479,38 @@ TEST(Playback, AFootOutOfReachIsLetGoWhileTheOtherIsInTheAir) {
   EXPECT_LT(held_motion(shown), kStill);
 }
 
+// The foot that comes down is the only one that is to carry, and another body stands where it does.
+TEST(Playback, HipsSinkBitByBitForAFootThatStandsAside) {
+  const Clip lands = test::clip_of(
+      kSkeleton, 60,
+      [](float t) {
+        test::Stance stance;
+        stance.left_ball.y += 0.1f * (1 - test::ramp(t, 0, 0.2f));
+        stance.right_ball.y += 0.3f;
+        return stance;
+      },
+      [](float t) {
+        return FootContacts{t > 0.15f, false};
+      },
+      test::in_place);
+  Playback playback(kSkeleton);
+  Shown shown;
+  bool aside = false;
+  for (Tick t = 0; t < lands.length(); ++t) {
+    playback.next(lands.at(t), lands.contacts_at(t));
+    shown.add(playback);
+    if (aside || !playback.presses_down(Side::left)) continue;
+    aside = true;
+    playback.stand_aside(Side::left, {0.4f, 0, 0});
+  }
+  EXPECT_TRUE(aside);
+  float fastest = 0;  // m/s
+  for (std::size_t t = 1; t < shown.size(); ++t) {
+    fastest = std::max(fastest, (shown.poses[t - 1].hips.y - shown.poses[t].hips.y) / kTickSeconds);
+  }
+  EXPECT_LT(fastest, 2);
+}
+
 TEST(Playback, KneesDoNotPop) {
   float clips = 0;
   for (const Clip& clip : boxing()) {
