@@ -41,7 +41,7 @@ class Playback {
   // Shows a simulated pose as it is; the feet are let go.
   const Pose& next_simulated(const Pose& pose);
 
-  // Replaces the pose just shown, where something outside (another body) stood in its way.
+  // Replaces the pose just shown, where it may not be so: ranges of joints, a blow that has landed.
   void amend(const Pose& pose);
 
   // A foot that has been set down and still presses down stands `offset`, m on the ground, off

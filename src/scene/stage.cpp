@@ -87,7 +87,9 @@ void Stage::begin(FighterId fighter, const Launch& launch, std::vector<Pose> sim
   actor.motion.seam = true;
   const Playback& playback = actor.motion.playback;
   if (playback.started() && !actor.motion.simulated) {
-    actor.motion.free = limit_excesses(playback.shown());
+    LimitExcesses& free = actor.motion.free = limit_excesses(playback.shown());
+    const LimitExcesses held_off = limit_excesses(actor.motion.shown);
+    for (std::size_t i = 0; i < kLimitCount; ++i) free[i] = std::max(free[i], held_off[i]);
   }
   actor.motion.gives = {};
   actor.motion.landed = {};
@@ -132,8 +134,7 @@ void Stage::land(FighterId fighter, const Contact& contact) {
   if (!limb) return;
   Motion& motion = actor.motion;
   LandedLimb& landed = motion.landed[*limb];
-  landed = LandedLimb(actor.body, kArmsAndLegs[*limb], motion.playback.shown_before(),
-                      motion.playback.shown(), contact);
+  landed = LandedLimb(actor.body, kArmsAndLegs[*limb], motion.shown_before, motion.shown, contact);
   // The others are held back in this tick already.
   const WorldPose world = world_pose(actor.body.skeleton, motion.unhindered);
   LimbOffsets offsets{};
@@ -181,8 +182,8 @@ void Stage::relieve_feet(const Pose& clip, Playback& playback) {
   }
 }
 
-// The next tick's pose as if nothing stood in its way; true where its clip follows a simulation.
-bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
+// The next tick's pose as if nothing stood in its way.
+void Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
   const Clip& clip = library_.action(actor.launch.action).clip;
   auto at = static_cast<std::size_t>(tick - actor.simulated_from);
   // Who fell lies where the ragdoll came to rest, until a get-up begins.
@@ -201,15 +202,17 @@ bool Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
   motion.simulated = simulated;
   for (LandedLimb& limb : motion.landed) limb.step();
   motion.unhindered = stopped(actor.body, motion, given_way(actor.body, motion));
-  return seam;
 }
 
 void Stage::next(const Actor& actor, Tick tick, Motion& motion) const {
-  // What is shown is where a new motion starts from.
-  if (go_on(actor, tick, motion) || motion.seam) motion.kept_out = {};
+  const bool first = !motion.playback.started(), begins = motion.seam;
+  go_on(actor, tick, motion);
+  // A simulation starts from what is shown; a clip from the motion before it, and what is in the
+  // way goes on holding limbs off: pushed aside, a limb does not fly on by itself.
+  if (begins && motion.simulated) motion.kept_out = {};
   free_joints(actor, tick, motion);
-  motion.playback.amend(
-      in_range(actor.body, motion, with_offsets(actor.body, motion.unhindered, motion.kept_out)));
+  motion.shown_before = first ? motion.unhindered : motion.shown;
+  hold_off(actor.body, motion);
 }
 
 void Stage::show(Tick tick) {
@@ -247,23 +250,29 @@ void Stage::free_joints(const Actor& actor, Tick tick, Motion& motion) const {
   }
 }
 
-Pose Stage::in_range(const BodyModel& body, const Motion& motion, const Pose& pose) {
+Pose Stage::in_range(const BodyModel& body, const Motion& motion, const Pose& pose,
+                     const Pose& earlier) {
   LimitExcesses simulated;  // mended already
   simulated.fill(kLimitTolerance);
-  return limited(body, pose, motion.playback.shown_before(),
-                 motion.simulated ? simulated : motion.free);
+  return limited(body, pose, earlier, motion.simulated ? simulated : motion.free);
 }
 
-void Stage::amend(Actor& actor, const LimbOffsets& offsets) {
-  Motion& motion = actor.motion;
-  motion.kept_out = offsets;
-  motion.playback.amend(
-      in_range(actor.body, motion, with_offsets(actor.body, motion.unhindered, offsets)));
-  actor.swept.after = shown_capsules(actor);
+void Stage::hold_off(const BodyModel& body, Motion& motion) {
+  Playback& playback = motion.playback;
+  playback.amend(in_range(body, motion, motion.unhindered, playback.shown_before()));
+  motion.shown = playback.shown();
+  if (motion.kept_out != LimbOffsets{}) {
+    motion.shown = in_range(body, motion, with_offsets(body, motion.unhindered, motion.kept_out),
+                            motion.shown_before);
+  }
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    Quat& rotation = motion.shown.rotation[j];
+    rotation = in_hemisphere_of(rotation, motion.shown_before.rotation[j]);
+  }
 }
 
 BodyCapsules Stage::shown_capsules(const Actor& actor) {
-  return capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.playback.shown()));
+  return capsules(actor.body, world_pose(actor.body.skeleton, actor.motion.shown));
 }
 
 void Stage::keep_out_and_record() {
@@ -284,7 +293,7 @@ void Stage::keep_out_and_record() {
     draw_feet_away(actor);
     set_feet_aside(actor);
     actor.recorded = true;
-    actor.track.frames.push_back(actor.motion.playback.shown());
+    actor.track.frames.push_back(actor.motion.shown);
     actor.track.contacts.push_back(actor.motion.playback.held());
   }
 }
@@ -293,18 +302,19 @@ void Stage::keep_out_and_record() {
 std::vector<BodyCapsules> Stage::near(const Actor& actor) const {
   std::vector<BodyCapsules> all;
   for (const Actor& other : actors_) {
-    const float apart =
-        glm::distance(actor.motion.unhindered.hips, other.motion.playback.shown().hips);
+    const float apart = glm::distance(actor.motion.unhindered.hips, other.motion.shown.hips);
     if (&other != &actor && apart < kArmsReach * actor.body.scale) all.push_back(other.swept.after);
   }
   return all;
 }
 
 void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
-  amend(actor, kept_out(actor.body, actor.motion.unhindered, actor.motion.playback.held(),
-                        near(actor), before, [&](const Pose& pose) {
-                          return in_range(actor.body, actor.motion, pose);
-                        }));
+  Motion& motion = actor.motion;
+  motion.kept_out = kept_out(
+      actor.body, motion.unhindered, motion.playback.held(), near(actor), before,
+      [&](const Pose& pose) { return in_range(actor.body, motion, pose, motion.shown_before); });
+  hold_off(actor.body, motion);
+  actor.swept.after = shown_capsules(actor);
 }
 
 // A foot on which a body falls does not stay under it.
@@ -347,10 +357,6 @@ Vec3 Stage::taken_aside(FighterId fighter) {
   return std::exchange(actors_[fighter.at()].aside, {});
 }
 
-const Pose& Stage::shown_before(FighterId fighter) const {
-  return actors_[fighter.at()].motion.playback.shown_before();
-}
-
 bool Stage::simulated(FighterId fighter) const {
   return actors_[fighter.at()].motion.simulated;
 }
@@ -358,7 +364,7 @@ bool Stage::simulated(FighterId fighter) const {
 std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) const {
   const Actor& actor = actors_[fighter.at()];
   Motion ahead = actor.motion;
-  std::vector<Pose> poses{ahead.playback.shown()};
+  std::vector<Pose> poses{ahead.shown};
   bool came_back = actor.recorded;  // what was held off in the last tick
   for (Tick t = tick + 1; static_cast<Tick>(poses.size()) < count; ++t) {
     if (!came_back) {
@@ -367,7 +373,7 @@ std::vector<Pose> Stage::continued(FighterId fighter, Tick tick, Tick count) con
     }
     came_back = false;
     next(actor, t, ahead);
-    poses.push_back(ahead.playback.shown());
+    poses.push_back(ahead.shown);
   }
   return poses;
 }

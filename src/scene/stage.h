@@ -56,10 +56,10 @@ class Stage {
   void keep_out_and_record();
 
   const Launch& launch(FighterId fighter) const { return actors_[fighter.at()].launch; }
-  const Pose& shown(FighterId fighter) const {
-    return actors_[fighter.at()].motion.playback.shown();
+  const Pose& shown(FighterId fighter) const { return actors_[fighter.at()].motion.shown; }
+  const Pose& shown_before(FighterId fighter) const {
+    return actors_[fighter.at()].motion.shown_before;
   }
-  const Pose& shown_before(FighterId fighter) const;
   FootContacts held(FighterId fighter) const {
     return actors_[fighter.at()].motion.playback.held();
   }
@@ -79,12 +79,13 @@ class Stage {
  private:
   // What goes on from tick to tick; a copy of it can run ahead.
   struct Motion {
-    Playback playback;
+    Playback playback;                   // as if nothing stood in its way
     std::array<ArmGive, 2> gives{};      // what blows on its guard have left
     std::array<LandedLimb, 4> landed{};  // what its own blows have
     bool simulated = false;              // the pose shown last was
     bool seam = false;                   // a launch began that is not shown yet
-    Pose unhindered{};                   // this tick's pose as if nothing stood in its way
+    Pose unhindered{};                   // this tick's pose of the playback, out of ranges maybe
+    Pose shown{}, shown_before{};        // in this tick and in the last one, world
     LimitExcesses free{};                // how far joints may go before they slow
     LimitExcesses free_more{};           // of that, what the last seam left
     std::array<float, 2> swings{};       // 0 the foot carries .. 1: its leg swings
@@ -108,16 +109,18 @@ class Stage {
 
   void stitch(const Actor& actor, Tick tick, Playback& playback) const;
   void free_joints(const Actor& actor, Tick tick, Motion& motion) const;
-  bool go_on(const Actor& actor, Tick tick, Motion& motion) const;
+  void go_on(const Actor& actor, Tick tick, Motion& motion) const;
   // The next tick, its limbs held off as they were: a blow's speed is the motion's own, not that of
   // a limb that comes back to it.
   void next(const Actor& actor, Tick tick, Motion& motion) const;
   static void relieve_feet(const Pose& clip, Playback& playback);
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
-  // `pose` of this tick as it is shown: with its joints inside their ranges.
-  static Pose in_range(const BodyModel& body, const Motion& motion, const Pose& pose);
-  static void amend(Actor& actor, const LimbOffsets& offsets);
+  // `pose` of this tick with its joints inside their ranges, `earlier` a tick ago.
+  static Pose in_range(const BodyModel& body, const Motion& motion, const Pose& pose,
+                       const Pose& earlier);
+  // What is shown of this tick: the motion with its limbs held off.
+  static void hold_off(const BodyModel& body, Motion& motion);
   static BodyCapsules shown_capsules(const Actor& actor);
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;

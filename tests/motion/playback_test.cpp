@@ -326,8 +326,8 @@ TEST(Playback, AFootLeftBehindTakesAStepAndArrives) {
   EXPECT_LT(velocity_jump(shown), kAddedJump);
 }
 
-// What holds a foot off its way (the range of its leg, another body) is not there any more once a
-// new motion has begun from what is shown.
+// What holds a foot off its way (the range of its leg) is not there any more once a new motion has
+// begun from what is shown.
 TEST(Playback, AStepThatWasHeldOffItsWayGoesOnFromWhereItIsShown) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   Playback playback(kSkeleton);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "default_library.h"
 #include "launch_of.h"
@@ -338,6 +340,40 @@ TEST_F(StageTest, AMotionInFlightHasTheSpeedsOfALimbThatIsHeldOff) {
     EXPECT_LT(apart(stage, motion.poses[1], next.shown(self)), 1e-6f) << t;
   }
   EXPECT_GT(held_off, 20);
+}
+
+// An arm that is pushed aside as a new action begins does not fly on once nothing is in its way.
+TEST_F(StageTest, ALimbThatIsHeldOffDoesNotFlyOnByItself) {
+  const FighterId self(0), other(1);
+  const auto hand = [](const Stage& of, Joint which) {
+    return world_pose(of.body(FighterId(0)).skeleton, of.shown(FighterId(0)))
+        .position[index(which)];
+  };
+  Stage stage = two_who_strike(), alone(default_library(), {make_body({})});
+  alone.begin(self, launch("jab_jab_cross", 0, {}));
+  std::array<float, 2> before{};
+  int pushed = 0;
+  for (Tick t = 0; t < 90; ++t) {
+    show(stage, t);
+    show(alone, t);
+    for (const std::size_t i : {0, 1}) {
+      const Joint joint = i == 0 ? Joint::left_hand : Joint::right_hand;
+      const float off = glm::distance(hand(stage, joint), hand(alone, joint));
+      const float speed = (off - std::exchange(before[i], off)) / kTickSeconds;
+      if (off < .05f || speed < 1.5f) continue;
+      ++pushed;
+      Stage goes_on = stage, freely = alone;
+      goes_on.shift(other, {0, 0, 5});
+      for (Stage* one : {&goes_on, &freely}) one->begin(self, launch("guard_1", t, {}));
+      for (Tick u = t + 1; u < t + 30; ++u) {
+        show(goes_on, u);
+        show(freely, u);
+        EXPECT_LT(glm::distance(hand(goes_on, joint), hand(freely, joint)), off + .03f)
+            << t << ", " << u - t;
+      }
+    }
+  }
+  EXPECT_GT(pushed, 5);
 }
 
 // Who is struck begins an answer within the tick that shows the blow: what held its arms off until
