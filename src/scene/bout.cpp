@@ -549,8 +549,8 @@ bool Bout::gives_way(FighterId id) const {
   return stage_.simulated(id) && stage_.shown(id).hips.y > kLyingHips * stage_.body(id).scale;
 }
 
-// Bodies that press into each other give way on the ground, each by half, or the one that can by
-// all; a strike's own contact is left to its impulse.
+// Bodies that press into each other, or of which one wedges a limb of the other, give way on the
+// ground, each by half, or the one that can by all; a strike's own contact is left to its impulse.
 void Bout::push_apart() {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) follow_feet(FighterId(i));
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
@@ -566,12 +566,14 @@ void Bout::push_apart() {
       };
       const Penetration deepest = deepest_penetration(stage_.swept(a).after, stage_.swept(b).after,
                                                       excepted(a), excepted(b));
-      if (deepest.depth <= kTouchingDepth) continue;
+      const float press =
+          std::max({deepest.depth - kTouchingDepth, stage_.wedged(a, b), stage_.wedged(b, a)});
+      if (press <= 0) continue;
       const Vec3 apart = normalized_or(ground_position(b) - ground_position(a), kForward);
       const float shares = (gives_way(a) ? 1.0f : 0.0f) + (gives_way(b) ? 1.0f : 0.0f);
       for (const auto& [id, sign] : {std::pair{a, -1.0f}, std::pair{b, 1.0f}}) {
         if (!gives_way(id)) continue;
-        const float push = std::min(kMostPush, (deepest.depth - kTouchingDepth) / shares);
+        const float push = std::min(kMostPush, press / shares);
         shift(id, apart * (push * sign));
       }
     }

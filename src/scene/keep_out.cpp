@@ -99,6 +99,24 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
   return offsets;
 }
 
+float wedge(const BodyCapsules& own, const LimbOffsets& offsets, const BodyCapsules& other) {
+  constexpr float kTouches = .01f;  // m
+  float most = 0;
+  for (std::size_t m = 0; m < kParts.size(); ++m) {
+    const float far = glm::length(offsets[m]) - kMostKeptOut[m] / 2;
+    if (far <= most) continue;
+    for (const Part part : kParts[m]) {
+      const Capsule& limb = own[index(part)];
+      const bool touches = std::any_of(other.begin(), other.end(), [&](const Capsule& one) {
+        return segment_distance(limb.a, limb.b, one.a, one.b).distance <
+               limb.radius + one.radius + kTouches;
+      });
+      if (touches) most = far;
+    }
+  }
+  return most;
+}
+
 Vec3 way_beside(const Capsule& foot, std::span<const BodyCapsules> others, Vec3 away) {
   constexpr int kSteps = 8;
   constexpr float kSteepest = .4f;  // share along the ground of a way out that is followed

@@ -35,6 +35,11 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others, const LimbOffsets& now,
                      const std::function<Pose(const Pose&)>& as_shown = std::identity{});
 
+// How far, m, a limb that touches the other body is held off beyond half of its kMostKeptOut: by as
+// much the bodies are too near to each other, before it can give no more. `own` are shown with the
+// offsets.
+float wedge(const BodyCapsules& own, const LimbOffsets& offsets, const BodyCapsules& other);
+
 // How far along the ground a foot that comes down must go to stand beside the `others`, m; the way
 // out that kept_out() finds may lead up, onto them. `away`: where none of their ways leads aside.
 Vec3 way_beside(const Capsule& foot, std::span<const BodyCapsules> others, Vec3 away);

@@ -357,6 +357,11 @@ Vec3 Stage::taken_aside(FighterId fighter) {
   return std::exchange(actors_[fighter.at()].aside, {});
 }
 
+float Stage::wedged(FighterId fighter, FighterId other) const {
+  const Actor& actor = actors_[fighter.at()];
+  return wedge(actor.swept.after, actor.motion.kept_out, actors_[other.at()].swept.after);
+}
+
 bool Stage::simulated(FighterId fighter) const {
   return actors_[fighter.at()].motion.simulated;
 }

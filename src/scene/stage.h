@@ -49,6 +49,9 @@ class Stage {
   // call: what the fighter's body is to follow.
   Vec3 taken_aside(FighterId fighter);
 
+  // How far a limb of the fighter is wedged by the other (keep_out.h), m.
+  float wedged(FighterId fighter, FighterId other) const;
+
   // Shows one tick of every fighter: poses and capsules, as if nothing stood in their way.
   void show(Tick tick);
 

@@ -103,6 +103,22 @@ TEST_F(KeepOut, AFoldedArmIsTurnedNoFasterThanItMay) {
   EXPECT_GT(turned, radians(20));
 }
 
+TEST_F(KeepOut, AGloveThatIsHeldFarOffIsWedgedByWhatItTouches) {
+  LimbOffsets offsets{};
+  const auto wedged = [&](const BodyCapsules& other) {
+    const Pose shown = with_offsets(body, pose, offsets);
+    return wedge(capsules(body, world_pose(body.skeleton, shown)), offsets, other);
+  };
+  for (const float far : {.05f, .14f, .20f, .27f}) {
+    offsets[0] = {0, 0, -far};
+    const Vec3 at = world_pose(body.skeleton, with_offsets(body, pose, offsets))
+                        .position[index(Joint::left_hand)];
+    EXPECT_NEAR(wedged(bar(at.z - glove.z + .05f)), std::max(0.0f, far - kMostKeptOut[0] / 2),
+                1e-5f);
+    EXPECT_EQ(wedged(bar(.6f)), 0);
+  }
+}
+
 TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
   LimbOffsets offsets{};
   offsets[0] = {0, 0, -.05f};
