@@ -72,13 +72,18 @@ float Playback::swing_seconds(Side side, const Limb& limb, const Pose& now,
   const BallJoint joint = ball_joint(limb);
   const Vec3 turns =
       ball_turns(joint, side, shown_.rotation[j]) - ball_turns(joint, side, now.rotation[j]);
-  const Vec3 swing = turns - joint.along * glm::dot(turns, joint.along);
-  const float bends = flexion(skeleton_, limb, shown_.rotation[index(limb.middle)]) -
-                      flexion(skeleton_, limb, now.rotation[index(limb.middle)]);
+  const float twist = glm::dot(turns, joint.along);
+  const Vec3 swing = turns - joint.along * twist;
+  const float bent = flexion(skeleton_, limb, shown_.rotation[index(limb.middle)]),
+              bent_now = flexion(skeleton_, limb, now.rotation[index(limb.middle)]);
+  const float bends = bent - bent_now;
   const float lower = skeleton_.bone(limb.end);
+  // A bent limb that lay turned about its upper half is carried round by that.
+  const float round =
+      feet_.lies() ? std::abs(twist) * std::max(std::sin(bent), std::sin(bent_now)) : 0.0f;
   const float arc = glm::length(swing) * reach_share(skeleton_, limb, world_pose(skeleton_, now)) *
                         (skeleton_.bone(limb.middle) + lower) +
-                    std::abs(bends) * lower;
+                    (std::abs(bends) + round) * lower;
   return seconds_to_move(arc, most_acceleration);
 }
 
