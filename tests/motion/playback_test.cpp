@@ -158,7 +158,7 @@ float least_elbow(const Shown& shown) {
 constexpr float kAddedJump = 1.5f;  // m/s within 1/60 s that a seam may add to the clips' own
 constexpr float kStill = 0.001f;    // m within a tick
 
-const std::vector<Clip>& boxing() {
+const std::vector<Clip>& boxing_clips() {
   static const std::vector<Clip> clips = {test::idle_clip(kSkeleton), test::jab_clip(kSkeleton),
                                           test::step_clip(kSkeleton, {0, 0, 0.15f}),
                                           test::step_clip(kSkeleton, {0.1f, 0, -0.1f})};
@@ -173,7 +173,7 @@ Shown random_chain(std::uint64_t seed, int count, bool broken) {
   Shown shown;
   Placement at;
   for (int i = 0; i < count; ++i) {
-    const Clip& clip = boxing()[static_cast<std::size_t>(random.below(4))];
+    const Clip& clip = boxing_clips()[static_cast<std::size_t>(random.below(4))];
     const Tick ticks = broken ? 6 + random.below(clip.length() - 6) : clip.length();
     play(playback, clip, at, ticks, shown);
     const Placement error{random.uniform(-0.06f, 0.06f), random.uniform(-0.06f, 0.06f),
@@ -234,7 +234,7 @@ TEST(Playback, AVelocityThatIsGoneSoonerCarriesLessFar) {
 
 TEST(Playback, ShowsAClipAsItIsWhereNothingNeedsMending) {
   const Clip kick = test::kick_clip(kSkeleton);
-  std::vector<Clip> clips = boxing();
+  std::vector<Clip> clips = boxing_clips();
   clips.push_back(kick);
   for (const Clip& clip : clips) {
     Playback playback(kSkeleton);
@@ -257,7 +257,7 @@ TEST(Playback, ASeamNeitherJumpsNorJerks) {
 
 TEST(Playback, AClipBrokenOffInTheMiddleOfABlendNeitherJumpsNorJerks) {
   float clips = 0;
-  for (const Clip& clip : boxing()) clips = std::max(clips, velocity_jump(alone(clip)));
+  for (const Clip& clip : boxing_clips()) clips = std::max(clips, velocity_jump(alone(clip)));
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Shown shown = random_chain(seed, 20, true);
     EXPECT_LT(position_jump(shown), 0.02f) << "seed " << seed;
@@ -513,7 +513,7 @@ TEST(Playback, HipsSinkBitByBitForAFootThatStandsAside) {
 
 TEST(Playback, KneesDoNotPop) {
   float clips = 0;
-  for (const Clip& clip : boxing()) {
+  for (const Clip& clip : boxing_clips()) {
     Shown shown = alone(clip);
     clips = std::max(clips, knee_speed(shown));
   }
@@ -867,12 +867,12 @@ TEST(Playback, AScaledBodyStandsOnTheSameFloor) {
 TEST(Playback, ACopyGoesOnBitByBit) {
   Playback playback(kSkeleton);
   Shown shown;
-  play(playback, boxing()[1], {}, 20, shown);
-  play(playback, boxing()[2], {0.05f, 0, 0.1f}, 11, shown);
+  play(playback, boxing_clips()[1], {}, 20, shown);
+  play(playback, boxing_clips()[2], {0.05f, 0, 0.1f}, 11, shown);
   Playback twin = playback;
   Shown a, b;
-  play(playback, boxing()[0], {0.1f, 0, 0}, 50, a);
-  play(twin, boxing()[0], {0.1f, 0, 0}, 50, b);
+  play(playback, boxing_clips()[0], {0.1f, 0, 0}, 50, a);
+  play(twin, boxing_clips()[0], {0.1f, 0, 0}, 50, b);
   for (std::size_t t = 0; t < a.size(); ++t) {
     EXPECT_EQ(a.poses[t].hips, b.poses[t].hips);
     EXPECT_EQ(a.poses[t].rotation, b.poses[t].rotation);
