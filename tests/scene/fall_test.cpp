@@ -39,7 +39,7 @@ const Event* fall_upon_somebody(const Timeline& timeline) {
 
 TEST(Fall, ABodyThatFallsUponAnotherHitsItLikeAnyOtherHit) {
   int met = 0;
-  for (std::uint64_t seed = 1; seed <= 8 && met == 0; ++seed) {  // until one falls upon somebody
+  for (std::uint64_t seed = 1; seed <= 24 && met == 0; ++seed) {  // until one falls upon somebody
     const FightRecord record = simulate_fight(default_library(), crowd(seed, .5f));
     const Event* hit = fall_upon_somebody(record.timeline);
     if (hit == nullptr) continue;
