@@ -36,6 +36,12 @@ class Easing {
     clip_ = clip_wants;
   }
 
+  // What is led is led `by` so much off where it was from now on, and so it is shown: no corner.
+  void set_aside(T by) {
+    wanted_ += by;
+    wanted_before_ += by;
+  }
+
   T wanted() const { return wanted_; }
   T eased() const { return eased_; }  // by how much it is shown off that
 

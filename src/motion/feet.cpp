@@ -267,6 +267,7 @@ void Feet::stand_aside(Side side, Vec3 offset) {
   foot.place += offset;
   foot.led += offset;
   foot.led_before += offset;
+  foot.path.set_aside(offset);
   foot.load = 0;  // the hips sink for it bit by bit
 }
 

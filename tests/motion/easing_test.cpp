@@ -49,5 +49,13 @@ TEST(Easing, LeavesACornerOfTheClipAsItIs) {
   EXPECT_NEAR(most_acceleration(shown), 120, 1);
 }
 
+TEST(Easing, LeavesWhatIsSetAsideWhereItIsSet) {
+  const Vec3 aside{.1f, 0, 0};
+  Easing<Vec3> path{{}, {}, {}, {}};
+  path.set_aside(aside);
+  path.follow(aside, {}, kAcceleration, kRate);
+  EXPECT_EQ(path.wanted() + path.eased(), aside);
+}
+
 }  // namespace
 }  // namespace ringcraft
