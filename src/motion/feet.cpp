@@ -37,6 +37,9 @@ constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide 
 constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster than that, and
 constexpr float kSlowsAt = 18;            // 1/s: times its height over it, after a simulation
 constexpr float kSkims = 0.03f;           // s: times its speed over the ground, as high it stays
+constexpr float kClears = 0.25f;          // of its way back: so high it goes over the floor,
+constexpr float kClearest = 0.06f;        // m: or so high
+constexpr float kClearRate = 20;          // 1/s: at which it is taken there
 constexpr float kStaysUp = 10;            // m/s2: braked by no more than that for it
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongestLeg = 0.9995f;    // of its length: where nothing is eased any more
@@ -184,6 +187,7 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
   foot.by_joints = simulated && !stands_still(foot);
   foot.lift = {};
+  foot.clearance = {};
   if (foot.mode == Mode::held) {
     if (stand_as_shown(foot)) foot.path = path;
     return;
@@ -358,6 +362,14 @@ float Feet::Lift::of(float height, float clip_height, float begun) {
   return lift(height) - at_first * begun - lift(clip_height) * (1 - begun);
 }
 
+// As a critically damped spring.
+void Feet::Clearance::follow(float wanted) {
+  const float off = value - wanted, slope = velocity + off * kClearRate;
+  const float fade = std::exp(-kClearRate * kTickSeconds);
+  value = wanted + (off + slope * kTickSeconds) * fade;
+  velocity = slope * fade - (value - wanted) * kClearRate;
+}
+
 // Height of the ball of a foot that stands, turned as it is going to be shown.
 float Feet::floor_of_shown(const Foot& foot) const {
   const Quat spin = foot.shown * glm::inverse(foot.shown_before);
@@ -393,7 +405,11 @@ Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, f
   switch (foot.mode) {
     case Mode::swing:
       if (foot.by_joints) {
-        ball = blended_ball + kUp * foot.lift.of(blended_ball.y - floor, clip_ball.y - floor,
+        // Thrown aside, it would be dragged back along the floor.
+        const float way = glm::distance(on_ground(blended_ball), on_ground(clip_ball));
+        foot.clearance.follow(lies() ? 0.0f : std::min(kClearest, kClears * way));
+        ball = blended_ball + kUp * foot.lift.of(blended_ball.y - floor - foot.clearance.value,
+                                                 clip_ball.y - floor,
                                                  glm::smoothstep(0.0f, 1.0f, foot.reach_left));
       } else {
         ball += clip_ball;

@@ -58,6 +58,11 @@ class Feet {
     float at_first = -1;  // m: what that took at the seam; below 0: not known yet
     float of(float height, float clip_height, float begun);
   };
+  // How high, m, a foot on its way back stays over the floor.
+  struct Clearance {
+    float value = 0, velocity = 0;  // m, m/s
+    void follow(float wanted);
+  };
   // How far, m, a knee stands off the line from hip to ankle: one of a leg that is nearly straight
   // goes far where its foot goes little, and starts and stops gently all the same.
   struct Knee {
@@ -81,6 +86,7 @@ class Feet {
     Quat shown, shown_before;    // world rotation
     Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
     Lift lift;                   // of one that goes by joints
+    Clearance clearance;         // the same
     Vec3 clip_ball{};            // the clip's, one tick ago
     Quat clip_turn;              // the same of the foot's world rotation
     Knee knee;

@@ -208,6 +208,25 @@ TEST(StruckBodies, ALegInTheAirIsNotThrownByTheKneeOfItsClip) {
   EXPECT_LT(jump, 3.0f);
 }
 
+// How far, m, feet go along the floor faster than `speed`, m/s, their soles lower than `height`, m,
+// once the simulation is over.
+float skimmed(const HitAnswer& answer, float height, float speed) {
+  const BodyModel& body = answer.bodies.front();
+  const auto frames = frames_from_hit(answer);
+  float skims = 0;
+  for (std::size_t t = 19; t < frames.size(); ++t) {
+    const WorldPose before = world_pose(body.skeleton, frames[t - 1]),
+                    now = world_pose(body.skeleton, frames[t]);
+    for (const Side side : {Side::left, Side::right}) {
+      const Vec3 moved = now.position[index(toes(side))] - before.position[index(toes(side))];
+      const float far = std::hypot(moved.x, moved.z);
+      const bool low = sole_height(body, now, side) < height;
+      skims += low && far > speed * kTickSeconds ? far : 0;
+    }
+  }
+  return skims;
+}
+
 // A foot that was in the air comes down when it has slowed over the ground: until then its sole is
 // off the floor. It skimmed over it for 0.59 to 0.70 m.
 TEST(StruckBodies, SetFeetDownThatHaveSlowed) {
@@ -215,23 +234,20 @@ TEST(StruckBodies, SetFeetDownThatHaveSlowed) {
       {"front_kick_rear", .1689, Part::head, {-3.19f, 0, 33.53f}, .779f},
       {"idle_guard_2", .4718, Part::right_thigh, {100.68f, 0, 32.59f}, .784f},
       {"roundhouse_rear_low", .4873, Part::head, {13.91f, 0, .41f}, .777f}};
-  for (const StruckCase& c : cases) {
-    const HitAnswer answer = answer_to_case(c);
-    const BodyModel& body = answer.bodies.front();
-    const auto frames = frames_from_hit(answer);
-    float skims = 0;  // m
-    for (std::size_t t = 19; t < frames.size(); ++t) {
-      const WorldPose before = world_pose(body.skeleton, frames[t - 1]),
-                      now = world_pose(body.skeleton, frames[t]);
-      for (const Side side : {Side::left, Side::right}) {
-        const Vec3 moved = now.position[index(toes(side))] - before.position[index(toes(side))];
-        const float far = std::hypot(moved.x, moved.z);
-        const bool skimming = sole_height(body, now, side) < .025f && far > 1.0f * kTickSeconds;
-        skims += skimming ? far : 0;
-      }
-    }
-    EXPECT_LT(skims, .4f) << c.action;
-  }
+  for (const StruckCase& c : cases)
+    EXPECT_LT(skimmed(answer_to_case(c), .025f, 1), .4f) << c.action;
+}
+
+// A foot that was thrown aside is lifted on its way back: it was dragged along the floor for 0.6 to
+// 1.0 m.
+TEST(StruckBodies, BringAFootThatWasThrownAsideBackOverTheFloor) {
+  const std::vector<StruckCase> cases{
+      {"front_kick_rear_near", .5216274858, Part::left_upper_arm, {7.632f, 0, 56.333f}, .92307f},
+      {"roundhouse_lead_middle", .9105979701, Part::left_thigh, {-109.49f, 0, -60.207f}, .73709f},
+      {"step_back_right_long", .2508808225, Part::left_thigh, {-73.851f, 0, -38.394f}, .94034f},
+      {"leg_sweep", .6393669248, Part::abdomen, {-29.903f, 0, 38.506f}, .71315f}};
+  for (const StruckCase& c : cases)
+    EXPECT_LT(skimmed(answer_to_case(c), .01f, .3f), .25f) << c.action;
 }
 
 // A foot that stands where its leg comes to the end of its range steps before, and is not torn off.
