@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -81,12 +82,34 @@ Seam seam_over(const MotionLibrary& library, const BodyModel& body, const Fighte
   return worst;
 }
 
+// The longest way, m, on which a foot is drawn along the floor from frame `from` on: its sole lower
+// than 1 cm, and faster than 0.3 m/s.
+double longest_drag(const BodyModel& body, std::span<const Pose> frames, std::size_t from) {
+  constexpr float kLow = .01f, kMoves = .3f * kTickSeconds;
+  double longest = 0;
+  for (const Side side : {Side::left, Side::right}) {
+    double way = 0;
+    Vec3 last = world_pose(body.skeleton, frames[from]).position[index(toes(side))];
+    for (std::size_t t = from + 1; t < frames.size(); ++t) {
+      const WorldPose world = world_pose(body.skeleton, frames[t]);
+      const Vec3 ball = world.position[index(toes(side))];
+      const float moved = std::hypot(ball.x - last.x, ball.z - last.z);
+      last = ball;
+      const bool drags = moved > kMoves && sole_height(body, world, side) < kLow;
+      way = drags ? way + static_cast<double>(moved) : 0;
+      longest = std::max(longest, way);
+    }
+  }
+  return longest;
+}
+
 struct Answered {
   HitQuery query;
   Tick hit = 0;
   bool done = false, stays_up = false, falls = false, knocked_out = false, got_up = false;
   Seam into_clip, into_get_up, back_to_guard;
   double skate = 0;
+  double drag = 0;  // m
   double off = -1;  // rad between the impulse and where the hips go; below 0 where they stay
   int answers = 0, steps = 0;
   double lifts = -1, lands = -1;  // s from the blow: the first step's foot; below 0 where none
@@ -155,6 +178,8 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
   a.got_up = track.frames.back().hips.y > .75f * up;
   const auto from = static_cast<std::size_t>(answer->hit_tick);
   if (a.stays_up) {
+    const auto simulated = std::min(from + kSimulated, track.frames.size() - 1);
+    a.drag = longest_drag(body, track.frames, simulated);
     a.skate =
         foot_skate_ratio(body.skeleton, std::span(track.frames).subspan(from), kTicksPerSecond);
   }
@@ -329,12 +354,13 @@ void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
 
 void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   rows.group("V7 what game makers report wrong");
-  std::vector<double> skate;
+  std::vector<double> skate, drag;
   std::vector<const Answered*> stood;
   std::size_t once = 0, falls = 0, up = 0;
   for (const Answered& a : all) {
     if (a.stays_up) {
       skate.push_back(a.skate);
+      drag.push_back(a.drag);
       stood.push_back(&a);
     }
     once += a.answers == 1 ? 1 : 0;
@@ -346,6 +372,12 @@ void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitR
   say_worst(
       asked.run, std::move(stood), [](const Answered& a) { return a.skate; },
       [](const Answered& a) { return fmt::format("feet slide, {:.3f}", a.skate); });
+  if (!drag.empty()) {
+    const auto far = std::count_if(drag.begin(), drag.end(), [](double way) { return way > .25; });
+    rows.said("a foot drawn along the floor for over 25 cm", "%",
+              share(static_cast<std::size_t>(far), drag.size()), "");
+    rows.said("the same, longest way", "m", quantile(drag, 1), "");
+  }
   rows.held("hits with exactly one answer", "%", share(once, all.size()), "", at_least(100));
   if (falls > 0) {
     rows.held(fmt::format("{} falls: stands after one get-up", falls), "%", share(up, falls), "",
