@@ -36,11 +36,9 @@ constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that t
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
 constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster than that, and
 constexpr float kSlowsAt = 18;            // 1/s: times its height over it, after a simulation
-constexpr float kSkims = 0.03f;           // s: times its speed over the ground, as high it stays
 constexpr float kClears = 0.25f;          // of its way back: so high it goes over the floor,
 constexpr float kClearest = 0.06f;        // m: or so high
 constexpr float kClearRate = 20;          // 1/s: at which it is taken there
-constexpr float kStaysUp = 10;            // m/s2: braked by no more than that for it
 constexpr float kLandingSpeed = 0.8f;     // m/s: nor is one that moves faster over the ground
 constexpr float kLongestLeg = 0.9995f;    // of its length: where nothing is eased any more
 constexpr float kKneeAcceleration = 60;   // m/s2: of a knee off its leg's line, beyond the clip's
@@ -376,17 +374,9 @@ float Feet::floor_of_shown(const Foot& foot) const {
   return ball_floor(skeleton_, glm::normalize(spin * foot.shown));
 }
 
-// m/s: how fast a foot that a simulation threw may come down. One that goes by its joints stays up
-// until it has slowed over the ground: it would skim the floor.
-float Feet::fastest_descent(const Foot& foot, float floor) const {
-  const float height = foot.ball.y - floor;
-  const float slows = kMeetsFloor + kSlowsAt * std::max(0.0f, height);
-  if (!foot.by_joints || lies()) return slows;
-  const Vec3 velocity = foot.moved() / kTickSeconds;
-  const float speed = glm::length(on_ground(velocity));
-  const float arrives = 1 - glm::smoothstep(kLandingSpeed, 2 * kLandingSpeed, speed);
-  const float stays = kMeetsFloor * arrives + kSlowsAt * std::max(0.0f, height - kSkims * speed);
-  return std::min(slows, std::max(stays, -velocity.y - kStaysUp * kTickSeconds));
+// m/s: how fast a foot that a simulation threw may come down.
+float Feet::fastest_descent(const Foot& foot, float floor) {
+  return kMeetsFloor + kSlowsAt * std::max(0.0f, foot.ball.y - floor);
 }
 
 // Where the ball of the foot goes in this tick.

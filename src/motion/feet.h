@@ -119,7 +119,7 @@ class Feet {
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Foot& foot, Quat clip_turn, Vec3 hips_turn) const;
   float floor_of_shown(const Foot& foot) const;
-  float fastest_descent(const Foot& foot, float floor) const;
+  static float fastest_descent(const Foot& foot, float floor);
   float too_high(Vec3 hip, Vec3 ankle, float straightest) const;
   float rise_for(Side side, const WorldPose& world) const;
   float knees_ask(const WorldPose& world, const WorldPose& clip);

@@ -42,9 +42,15 @@ float Playback::blend_of(const Pose& now, const Pose& after,
   if (!catches_up_) return seconds;
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
   const WorldPose clip = world_pose(skeleton_, now), clip_next = world_pose(skeleton_, after);
+  const float heads = heading_of(shown_.rotation[0]), clip_heads = heading_of(now.rotation[0]);
+  const float turn = feet_.lies() ? 0.0f : wrapped_angle(clip_heads - heads);
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const Vec3 moved = shown.position[j] - before.position[j];
-    const float far = glm::distance(shown.position[j] + moved, clip.position[j]);
+    // Round with the body, and straight from there.
+    const Vec3 out = shown.position[j] - shown_.hips;
+    const Vec3 turned = shown_.hips + yaw_rotation(turn) * out + moved;
+    const float far =
+        std::abs(turn) * std::hypot(out.x, out.z) + glm::distance(turned, clip.position[j]);
     const float fast =
         glm::distance(moved, clip_next.position[j] - clip.position[j]) / kTickSeconds;
     seconds = std::max({seconds, seconds_to_move(far, most_acceleration),

@@ -250,6 +250,17 @@ TEST(StruckBodies, BringAFootThatWasThrownAsideBackOverTheFloor) {
     EXPECT_LT(skimmed(answer_to_case(c), .01f, .3f), .25f) << c.action;
 }
 
+// Where a body turns back with a leg or an arm out, these go round with it: as long as if they went
+// straight, they whirled at 10 m/s.
+TEST(StruckBodies, TurnBackNoFasterThanTheirLimbsMayGoRound) {
+  const std::vector<StruckCase> cases{
+      {"spinning_back_kick", .53095239, Part::head, {-1.0902517f, 0, 11.499822f}, .6786987f},
+      {"roundhouse_rear_middle", .42770613, Part::head, {4.095782f, 0, -16.445591f}, .871910f}};
+  for (const StruckCase& c : cases) {
+    EXPECT_LT(velocity_jump(answer_to_case(c), 24, 120), 1.5f) << c.action;
+  }
+}
+
 // A foot that stands where its leg comes to the end of its range steps before, and is not torn off.
 TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
   const HitAnswer answer = answer_to_case(
