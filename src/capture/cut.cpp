@@ -75,6 +75,13 @@ void arc_window(const Skeleton& skeleton, const Clip& clip, Tick peak, Strike& s
   strike.active_end = end;
 }
 
+// The tick of a strike's peak speed, near where it is stated to be; both inside the clip.
+Tick peak_near(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick at) {
+  const Tick around = ticks(kSearchAround);
+  return fastest_tick(skeleton, clip, joint, std::max(1, at - around),
+                      std::min(at + around, clip.length() - 1));
+}
+
 // A straight's moment of full reach and where it goes then, in the clip's space.
 struct Aim {
   Tick tick = 0;
@@ -86,9 +93,7 @@ std::vector<Aim> aims_of(const Skeleton& skeleton, const Clip& clip, const Actio
   std::vector<Aim> aims;
   for (const StrikeCut& strike : cut.strikes) {
     if (!goes_straight(strike.kind)) continue;
-    const Tick at = ticks(strike.at) - first;
-    const Tick peak = fastest_tick(skeleton, clip, strike.joint, at - ticks(kSearchAround),
-                                   at + ticks(kSearchAround));
+    const Tick peak = peak_near(skeleton, clip, strike.joint, ticks(strike.at) - first);
     const Tick reached = full_reach(skeleton, clip, strike.joint, peak);
     aims.push_back({reached, yaw_of(from_hips(skeleton, clip, strike.joint, reached))});
   }
@@ -227,6 +232,12 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
     return fault(
         fmt::format("ends at {} s, the capture at {:.2f} s", cut.end, seconds(capture.length())),
         "set end within the capture");
+  for (const StrikeCut& strike : cut.strikes) {
+    const Tick at = ticks(strike.at);
+    if (at < first + 6 || at > last - 6)
+      return fault(fmt::format("the strike at {} s is not inside it", strike.at),
+                   "widen begin and end");
+  }
 
   Action action;
   action.name = cut.name;
@@ -248,18 +259,12 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
   unroll_rotations(action.clip);
 
   for (const StrikeCut& wanted : cut.strikes) {
-    const Tick at = ticks(wanted.at) - first;
-    if (at < 6 || at > action.length() - 6)
-      return fault(fmt::format("the strike at {} s is not inside it", wanted.at),
-                   "widen begin and end");
     Strike strike;
     strike.kind = wanted.kind;
     strike.joint = wanted.joint;
     strike.zone = wanted.zone;
     strike.aim = wanted.aim;
-    const Tick around = ticks(kSearchAround);
-    const Tick peak = fastest_tick(skeleton, action.clip, wanted.joint, std::max(1, at - around),
-                                   std::min(at + around, action.length() - 1));
+    const Tick peak = peak_near(skeleton, action.clip, wanted.joint, ticks(wanted.at) - first);
     if (goes_straight(wanted.kind))
       straight_window(skeleton, action.clip, peak, strike);
     else

@@ -110,6 +110,9 @@ TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
        "joint = "
        "\"leftHand\", zone = \"head\", at = 7.0 }]\n",
        "not inside"},
+      {"name = \"a\"\nkind = \"attack\"\nbegin = 20\nend = 21\nstrike = [{ kind = \"straight\", "
+       "joint = \"leftHand\", zone = \"head\", at = 0 }]\n",
+       "not inside"},
       {"name = \"a\"\nkind = \"attack\"\nbegin = 3\nend = 4\n", "strikes nothing"},
       {"name = \"a\"\nkind = \"attack\"\nbegin = 3\nend = 4\nstrike = [{ kind = \"straight\", "
        "joint = \"leftHand\", zone = \"head\", at = 3.4 }]\nresponse = { kind = \"absorb\" }\n",
