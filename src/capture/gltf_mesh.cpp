@@ -16,9 +16,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostVertices = std::size_t{1} << 20;
-constexpr std::size_t kMostJson = std::size_t{16} << 20;  // bytes
 constexpr std::size_t kMostMaterials = 256;
-constexpr int kDeepest = 32;
 constexpr float kLargestNumber = 1e7f;
 constexpr const char* kExportAgain = "export the character again";
 
@@ -42,15 +40,9 @@ class Looks {
   }
 
   Result<void> parse() {
-    if (chunks_.json.size() > kMostJson) return fault("", "more JSON than is read");
-    bool too_deep = false;
-    const auto depth = [&](int level, Json::parse_event_t, Json&) {
-      too_deep = too_deep || level > kDeepest;
-      return !too_deep;
-    };
-    json_ = Json::parse(chunks_.json, depth, false);
-    if (too_deep) return fault("", fmt::format("JSON nested deeper than {}", kDeepest));
-    if (!json_.is_object()) return fault("", "no glTF file: its JSON does not parse");
+    auto json = gltf_json(chunks_.json, file_, [](int, const std::string&) { return true; });
+    if (!json) return tl::unexpected(json.error());
+    json_ = std::move(*json);
     return {};
   }
 

@@ -26,8 +26,8 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// Keys that are kept, at the top and below.
-bool kept(int depth, const std::string& key) {
+// Keys that concern motion, at the top and below.
+bool concerns_motion(int depth, const std::string& key) {
   static constexpr std::array<std::string_view, 9> kTop = {
       "asset",       "nodes",   "skins",      "animations",        "accessors",
       "bufferViews", "buffers", "extensions", "extensionsRequired"};
@@ -37,38 +37,6 @@ bool kept(int depth, const std::string& key) {
       "extras",      "extensions", "materialProperties", "blendShapeMaster",
       "firstPerson", "meta",       "secondaryAnimation", "expressions"};
   return std::find(kDropped.begin(), kDropped.end(), key) == kDropped.end();
-}
-
-Result<Json> motion_json(std::string_view text, const std::string& file) {
-  if (text.size() > kLongestJson)
-    return input_error(file, "", fmt::format("{} bytes of JSON are more than is read", text.size()),
-                       "give a smaller file");
-  bool too_deep = false;
-  const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kDeepest) {
-      too_deep = true;
-      return false;
-    }
-    return event != Json::parse_event_t::key || kept(depth, value.get_ref<const std::string&>());
-  };
-  try {
-    Json json = Json::parse(text, keep);
-    if (too_deep)
-      return input_error(file, "", fmt::format("JSON nested deeper than {}", kDeepest),
-                         kExportAgain);
-    if (!json.is_object())
-      return input_error(file, "", "no glTF file: its JSON is no object", "give a glTF 2.0 file");
-    return json;
-  } catch (const Json::parse_error& fault) {
-    const std::size_t at = std::min(fault.byte, text.size() + 1) - 1;
-    const std::string place = fmt::format("byte {} of its JSON", at);
-    if (at == text.size())
-      return input_error(file, place, "it ends there",
-                         "the file is empty or cut off: fetch it again");
-    return input_error(file, place, "what stands there is no JSON", kExportAgain);
-  } catch (const Json::exception&) {
-    return input_error(file, "", "its JSON has a number that cannot be used", kExportAgain);
-  }
 }
 
 const Json* member(const Json& value, const char* key) {
@@ -148,10 +116,42 @@ Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file) 
   return chunks;
 }
 
+Result<Json> gltf_json(std::string_view text, const std::string& file, GltfKeyFilter kept) {
+  if (text.size() > kLongestJson)
+    return input_error(file, "", fmt::format("{} bytes of JSON are more than is read", text.size()),
+                       "give a smaller file");
+  bool too_deep = false;
+  const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kDeepest) {
+      too_deep = true;
+      return false;
+    }
+    return event != Json::parse_event_t::key || kept(depth, value.get_ref<const std::string&>());
+  };
+  try {
+    Json json = Json::parse(text, keep);
+    if (too_deep)
+      return input_error(file, "", fmt::format("JSON nested deeper than {}", kDeepest),
+                         kExportAgain);
+    if (!json.is_object())
+      return input_error(file, "", "no glTF file: its JSON is no object", "give a glTF 2.0 file");
+    return json;
+  } catch (const Json::parse_error& fault) {
+    const std::size_t at = std::min(fault.byte, text.size() + 1) - 1;
+    const std::string place = fmt::format("byte {} of its JSON", at);
+    if (at == text.size())
+      return input_error(file, place, "it ends there",
+                         "the file is empty or cut off: fetch it again");
+    return input_error(file, place, "what stands there is no JSON", kExportAgain);
+  } catch (const Json::exception&) {
+    return input_error(file, "", "its JSON has a number that cannot be used", kExportAgain);
+  }
+}
+
 Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file) {
   auto chunks = gltf_chunks(bytes, file);
   if (!chunks) return tl::unexpected(chunks.error());
-  auto json = motion_json(chunks->json, file);
+  auto json = gltf_json(chunks->json, file, concerns_motion);
   if (!json) return tl::unexpected(json.error());
   GltfParts parts;
   parts.binary = chunks->binary;

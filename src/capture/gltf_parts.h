@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
 
 namespace ringcraft {
@@ -23,7 +25,13 @@ struct GltfChunks {
 // A .gltf is one chunk of JSON.
 Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file);
 
-// `file` is only for messages. JSON nests 32 deep at most.
+// Whether what a key names, at its depth, is read.
+using GltfKeyFilter = bool (*)(int depth, const std::string& key);
+// The JSON of a glTF file, an object of at most 16 MiB that nests 32 deep at most, without what
+// `kept` refuses. `file` is only for messages.
+Result<nlohmann::json> gltf_json(std::string_view text, const std::string& file,
+                                 GltfKeyFilter kept);
+
 Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file);
 
 }  // namespace ringcraft

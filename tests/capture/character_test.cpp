@@ -148,6 +148,18 @@ TEST(Character, FaultsNameThePlaceAndTheRemedy) {
               HasSubstr("no skeleton profile knows"));
 }
 
+TEST(Character, OfAnEmptyOrCutFileTheFaultNamesTheByte) {
+  const auto fault_of = [](const std::string& bytes) {
+    const auto character = parse(bytes);
+    return character ? std::string("no fault") : to_string(character.error());
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(fault_of(""), HasSubstr("hero.glb: byte 0 of its JSON: it ends there; the file is "
+                                      "empty or cut off"));
+  EXPECT_THAT(fault_of("{\"asset\": "), HasSubstr("byte 10 of its JSON: it ends there"));
+  EXPECT_THAT(fault_of("no glTF"), HasSubstr("of its JSON: what stands there is no JSON"));
+}
+
 TEST(Character, DamagedFilesGiveACharacterOrOneError) {
   const std::string good = Hero().draft.glb();
   Random random(11);
