@@ -324,7 +324,7 @@ class Looks {
       auto read = table(indices, 1, place);
       if (!read) return tl::unexpected(read.error());
       for (const float index : read->values) {
-        if (!(index < static_cast<float>(count)))
+        if (!(index >= 0 && index < static_cast<float>(count)))
           return fault(place, "a corner that does not exist");
         out.piece.triangles.push_back(static_cast<std::uint32_t>(index));
       }

@@ -148,6 +148,17 @@ TEST(Character, FaultsNameThePlaceAndTheRemedy) {
               HasSubstr("no skeleton profile knows"));
 }
 
+TEST(Character, CornersBelowZeroDoNotExist) {
+  Hero hero;
+  const int corners = hero.draft.add({0, 1, -1}, "SCALAR", 1);
+  hero.draft.json["meshes"][0]["primitives"][0]["indices"] = corners;
+  const auto character = parse(hero.draft.glb());
+  ASSERT_FALSE(character);
+  EXPECT_EQ(to_string(character.error()),
+            "hero.glb: /meshes/0/primitives/0: a corner that does not exist; export the character "
+            "again");
+}
+
 TEST(Character, OfAnEmptyOrCutFileTheFaultNamesTheByte) {
   const auto fault_of = [](const std::string& bytes) {
     const auto character = parse(bytes);
