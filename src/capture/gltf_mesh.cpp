@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.h"
 #include "capture/gltf_parts.h"
 #include "capture/words.h"
 
@@ -16,6 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostVertices = std::size_t{1} << 20;
+constexpr std::size_t kMostRows = 12 * kMostVertices;  // of all tables: five a vertex, corners
 constexpr std::size_t kMostMaterials = 256;
 constexpr float kLargestNumber = 1e7f;
 constexpr const char* kExportAgain = "export the character again";
@@ -180,6 +182,8 @@ class Looks {
         (static_cast<std::size_t>(rows) - 1) * stride + row >
             bytes->size() - static_cast<std::size_t>(begin))
       return fault(place, fmt::format("{} rows of accessor {} run beyond its view", rows, number));
+    if (auto ok = count(static_cast<std::size_t>(rows), place); !ok)
+      return tl::unexpected(ok.error());
     const bool normalized = part(accessor, "normalized") == Json(true);
     Table out;
     out.rows = static_cast<std::size_t>(rows);
@@ -196,8 +200,18 @@ class Looks {
     return out;
   }
 
+  // Many may read one table or skin: a small file could ask for much.
+  Result<void> count(std::size_t rows, const std::string& place) {
+    rows_ += rows;
+    if (rows_ > kMostRows)
+      return fault(place, fmt::format("with it {} rows are read, more than {}", rows_, kMostRows),
+                   "reduce the character's mesh");
+    return {};
+  }
+
   Result<void> images() {
     const Json& given = list("images");
+    std::size_t total = 0;
     for (std::size_t i = 0; i < std::min(given.size(), kMostMaterials); ++i) {
       const std::string place = fmt::format("/images/{}", i);
       CharacterImage image;
@@ -207,6 +221,11 @@ class Looks {
                      "export it as one .glb");
       auto bytes = view(whole(given[i], "bufferView", -1), place);
       if (!bytes) return tl::unexpected(bytes.error());
+      total += bytes->size();
+      if (total > kLargestInput)  // many may name one view
+        return fault(place,
+                     fmt::format("up to it the pictures have {} bytes, more than 256 MiB", total),
+                     "give the character smaller pictures");
       image.bytes = *bytes;
       out_.images.push_back(std::move(image));
     }
@@ -362,6 +381,7 @@ class Looks {
       return fault(place, fmt::format("there is no skin {}", number));
     const Json& skin = list("skins")[static_cast<std::size_t>(number)];
     const Json& given = part(skin, "joints");
+    if (auto ok = count(given.size(), place); !ok) return ok;
     for (std::size_t i = 0; given.is_array() && i < given.size(); ++i) {
       const auto node = given[i].is_number_integer() ? given[i].get<std::int64_t>() : -1;
       if (node < 0 || static_cast<std::size_t>(node) >= list("nodes").size())
@@ -414,6 +434,7 @@ class Looks {
   Json json_;
   GltfLooks out_;
   std::size_t vertices_ = 0;
+  std::size_t rows_ = 0;  // of tables and skins
 };
 
 }  // namespace

@@ -159,6 +159,39 @@ TEST(Character, CornersBelowZeroDoNotExist) {
             "again");
 }
 
+TEST(Character, ASmallFileCannotAskForMuch) {
+  const auto fault_of = [](const auto& change) {
+    Hero hero;
+    change(hero);
+    const auto character = parse(hero.draft.glb());
+    return character ? std::string("no fault") : to_string(character.error());
+  };
+  using ::testing::HasSubstr;
+  // 200 surfaces of the same 300,000 corners.
+  EXPECT_THAT(fault_of([](Hero& hero) {
+                const int corners = hero.draft.add(std::vector<float>(300'000, 0), "SCALAR", 1);
+                nlohmann::json& all = hero.draft.json["meshes"][0]["primitives"];
+                nlohmann::json surface = all[0];
+                surface["indices"] = corners;
+                all = std::vector<nlohmann::json>(200, surface);
+              }),
+              HasSubstr("reduce the character's mesh"));
+  EXPECT_THAT(fault_of([](Hero& hero) {
+                nlohmann::json& all = hero.draft.json["meshes"][0]["primitives"];
+                all = std::vector<nlohmann::json>(200, all[0]);
+                nlohmann::json& skin = hero.draft.json["skins"][0];
+                skin.erase("inverseBindMatrices");
+                for (int i = 0; i < 100'000; ++i) skin["joints"].push_back(0);
+              }),
+              HasSubstr("reduce the character's mesh"));
+  EXPECT_THAT(fault_of([](Hero& hero) {
+                const std::size_t picture = hero.add_bytes(std::string(2'000'000, '.'));
+                hero.draft.json["images"] = std::vector<nlohmann::json>(
+                    200, {{"mimeType", "image/png"}, {"bufferView", picture}});
+              }),
+              HasSubstr("/images/134: up to it the pictures have 270000000 bytes"));
+}
+
 TEST(Character, OfAnEmptyOrCutFileTheFaultNamesTheByte) {
   const auto fault_of = [](const std::string& bytes) {
     const auto character = parse(bytes);
