@@ -167,8 +167,11 @@ Result<Document> parse(const std::string& text, const std::filesystem::path& pat
     if (!value) return tl::unexpected(value.error());
     document.value = std::move(*value);
   } catch (const toml::parse_error& fault) {
-    return usage_error(path.string(), line_place(fault.source()),
-                       "not valid TOML: " + std::string(fault.description()),
+    const std::string place = line_place(fault.source());
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin != std::string::npos && text[begin] == '{')
+      return usage_error(path.string(), place, "JSON, and no TOML", "name a TOML file");
+    return usage_error(path.string(), place, "not valid TOML: " + std::string(fault.description()),
                        "correct the syntax there");
   } catch (const std::logic_error&) {
     return usage_error(path.string(), fmt::format("line {}", unexpected_line(text)),

@@ -148,6 +148,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "'liked.1/2 ~' is a boolean", "write a number"},
         BadInput{"Syntax", "name = \"a\"\nrounds = = 1\n", "line 2, column 10", "not valid TOML",
                  "correct the syntax"},
+        BadInput{"Json", "\n {\"name\": \"a\"}\n", "line 2, column 2", "JSON, and no TOML",
+                 "name a TOML file"},
         BadInput{"OpenString", "name = \"a\n", "line 1, column 10", "not valid TOML", ""},
         BadInput{"KeyTwice", "name = \"a\"\nname = \"b\"\n", "line 2, column 8", "not valid TOML",
                  ""},
