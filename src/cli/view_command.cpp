@@ -85,24 +85,26 @@ bool opens(std::vector<std::string> words, const std::string& address) {
 }  // namespace
 
 int run_view(const ViewOptions& view, const CommonOptions& options) {
-  fs::path page;
+  fs::path page;  // empty: the one of a fight to come
   std::error_code failed;
-  const char* of_fights = !options.out.empty()    ? "--out"
-                          : options.seed          ? "--seed"
-                          : !options.sets.empty() ? "--set"
-                                                  : nullptr;
-  if (of_fights != nullptr && (fs::is_directory(view.what, failed) || is_page(view.what)))
-    return fail({ErrorKind::usage, view.what, of_fights, "of no effect on what is there already",
-                 "leave it out, or name a scene"});
   if (fs::is_directory(view.what, failed)) {
     const auto found = page_in(view.what);
-    if (!found) return fail(found.error());
-    page = *found;
+    // A folder without one may be called as a scene is.
+    if (!found && !scene_with(view.what, {})) return fail(found.error());
+    page = found.value_or("");
   } else if (is_page(view.what)) {
     if (!fs::is_regular_file(view.what, failed))
       return fail({ErrorKind::input, view.what, "", "no such page", "check the path"});
     page = view.what;
-  } else {
+  }
+  const char* of_fights = !options.out.empty()    ? "--out"
+                          : options.seed          ? "--seed"
+                          : !options.sets.empty() ? "--set"
+                                                  : nullptr;
+  if (!page.empty() && of_fights != nullptr)
+    return fail({ErrorKind::usage, view.what, of_fights, "of no effect on what is there already",
+                 "leave it out, or name a scene"});
+  if (page.empty()) {
     const auto scene = scene_with(view.what, options);
     if (!scene) return fail(scene.error());
     CommonOptions fought = options;

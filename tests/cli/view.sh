@@ -47,4 +47,10 @@ says 3 '' no_such_scene
 # A scene is fought first.
 says 0 "file://$folder/made/fight.html" duel --set duration_s=1 -q -o made
 [ -s made/fight.html ] || fault "the scene was not fought"
+# So it is where a folder without a page is called as the scene is.
+mkdir duel
+says 0 "file://$folder/made2/fight.html" duel --set duration_s=1 -q -o made2
+says 3 '' ./duel
+echo '<p>fight' >duel/fight.html
+says 0 "file://$folder/duel/fight.html" duel
 [ "$faults" -eq 0 ]
