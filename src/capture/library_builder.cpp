@@ -397,6 +397,20 @@ Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifes
   return std::move(out.actions);
 }
 
+std::vector<std::filesystem::path> files_of_library(const std::filesystem::path& library) {
+  std::vector<std::filesystem::path> files = {library_source(library)};
+  const auto manifest = read_manifest(files.front());
+  if (!manifest) return files;  // whoever loads it says what is wrong
+  const std::filesystem::path folder = manifest->path.parent_path();
+  for (const Json& capture : manifest->value.value("capture", Json::array()))
+    files.push_back(folder / text_of(capture, "path"));
+  for (const Json& pattern : manifest->value.value("sheets", Json::array())) {
+    const auto sheets = files_like(folder / pattern.get<std::string>());
+    files.insert(files.end(), sheets.begin(), sheets.end());
+  }
+  return files;
+}
+
 Result<MotionLibrary> build_library(const std::filesystem::path& source,
                                     const LibraryBuildSettings& settings) {
   std::vector<std::string> notes;

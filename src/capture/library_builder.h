@@ -38,6 +38,10 @@ Result<MotionLibrary> build_library(const std::filesystem::path& source,
 Result<std::vector<Action>> collect_actions(const std::filesystem::path& manifest,
                                             std::vector<std::string>* notes = nullptr);
 
+// The files that a library is made from, as load_library() is given it: itself, and the captures
+// and sheets that a manifest names.
+std::vector<std::filesystem::path> files_of_library(const std::filesystem::path& library);
+
 // A library of these actions with its motion graph, and with ways through it as actions that
 // connect where they shorten the paths of the state machine.
 MotionLibrary connected_library(const std::string& name, std::vector<Action> actions,

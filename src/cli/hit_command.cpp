@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/utf8.h"
+#include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
 #include "io/outputs.h"
@@ -189,8 +190,9 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   if (!query) return fail(query.error());
   std::vector<std::string> names = {"hit.glb", "hit.html", "events.jsonl", "hit.json"};
   if (!hit.sweep.empty()) names = {"hit_sweep.csv", "hit_sweep.json", "hit_sweep.svg"};
-  const auto folder =
-      output_folder(options, "out/hit", names, {hit.library, hit.body, hit.attacker});
+  std::vector<std::filesystem::path> inputs = files_of_library(hit.library);
+  inputs.insert(inputs.end(), {hit.body, hit.attacker});
+  const auto folder = output_folder(options, "out/hit", names, inputs);
   if (!folder) return fail(folder.error());
   const auto library = load_library(hit.library);
   if (!library) return fail(library.error());

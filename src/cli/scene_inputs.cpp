@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/schema.h"
+#include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "motion/feints.h"
 #include "scene/fight.h"
@@ -43,8 +44,8 @@ Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOption
 }
 
 std::vector<std::filesystem::path> files_of(const SceneFile& scene) {
-  std::vector<std::filesystem::path> files = scene.files;
-  files.push_back(scene.library);
+  std::vector<std::filesystem::path> files = files_of_library(scene.library);
+  files.insert(files.end(), scene.files.begin(), scene.files.end());
   for (const SceneFighter& fighter : scene.fighters) files.push_back(fighter.character);
   return files;
 }

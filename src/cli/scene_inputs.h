@@ -14,7 +14,7 @@ namespace ringcraft {
 Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
                              const std::vector<std::string>& more = {});
 
-// Every file that the scene names, itself included.
+// Every file that the scene and its library name, themselves included.
 std::vector<std::filesystem::path> files_of(const SceneFile& scene);
 
 // The scene's library, as its fighters need it (library_for).

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# keeps_its_inputs.sh scene|character|body|style|COMMAND RINGCRAFT SCENE FOLDER: a fight, or another
-# command, that would write one of its results over a file that it reads is refused, and what was
-# there stays as it was.
+# keeps_its_inputs.sh scene|character|body|style|capture|capture_of_hit|COMMAND RINGCRAFT SCENE
+# FOLDER: a fight, or another command, that would write one of its results over a file that it reads
+# is refused, and what was there stays as it was.
 set -u
 what=$1 program=$2 scene=$3 folder=$4
 assets=$(dirname "$scene")/..
@@ -16,6 +16,13 @@ of_other() {
   cp "$2" "$own"
   shift 2
   said=$("$program" "$@" "$own" -q -o "$folder" 2>&1)
+}
+# manifest NAME: the library.toml beside the folder that names a capture which is there as NAME.
+manifest() {
+  own=$folder/$1
+  echo 'a capture' >"$own"
+  mkdir -p "$folder.library"
+  printf 'name = "mine"\n[[capture]]\npath = "%s"\nsegment = true\n' "$own" >"$folder.library/library.toml"
 }
 case $what in
 scene)
@@ -38,6 +45,14 @@ style)
   own=$folder/events.jsonl
   cp "$assets/styles/balanced.toml" "$own"
   said=$(fight "$scene" --set "fighter.1.style='$own'")
+  ;;
+capture)
+  manifest fight.glb
+  said=$(fight "$scene" --set "library='$folder.library/library.toml'")
+  ;;
+capture_of_hit)
+  manifest hit.glb
+  said=$("$program" hit --library "$folder.library" -q -o "$folder" 2>&1)
   ;;
 tree) of_other tree.json "$scene" tree --at 0 ;;
 batch) of_other study.json "$scene" batch --count 1 ;;
