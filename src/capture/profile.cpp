@@ -50,6 +50,15 @@ int find_joint(const SkeletonProfile& profile, const RawClip& clip, const std::s
   return found;
 }
 
+// Whether the file's names begin as the profile's do.
+bool has_prefix(const SkeletonProfile& profile, const RawClip& clip) {
+  const auto begins = [&](const RawJoint& joint) {
+    return std::any_of(profile.prefixes.begin(), profile.prefixes.end(),
+                       [&](const std::string& prefix) { return joint.name.starts_with(prefix); });
+  };
+  return std::any_of(clip.joints.begin(), clip.joints.end(), begins);
+}
+
 bool hangs_below(const RawClip& clip, int joint, int carrier) {
   while (joint >= 0 && joint != carrier)
     joint = clip.joints[static_cast<std::size_t>(joint)].parent;
@@ -299,15 +308,16 @@ float score(const SkeletonProfile& profile, const RawClip& clip) {
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip) {
   const SkeletonProfile* best = nullptr;
-  std::tuple<bool, float, bool, long> best_score{};
+  std::tuple<bool, float, bool, bool, long> best_score{};
   for (const SkeletonProfile& profile : profiles) {
     const auto names = std::count_if(profile.source.begin(), profile.source.end(),
                                      [](const std::string& name) { return !name.empty(); });
     const float share = score(profile, clip);
     if (share == 0) continue;
     const auto map = map_joints(profile, clip);
-    const std::tuple<bool, float, bool, long> fit{map.has_value(), share, map && map->as_written,
-                                                  static_cast<long>(names)};
+    const std::tuple<bool, float, bool, bool, long> fit{
+        map.has_value(), share, map && map->as_written, has_prefix(profile, clip),
+        static_cast<long>(names)};
     if (fit > best_score) {
       best_score = fit;
       best = &profile;

@@ -53,7 +53,8 @@ Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& 
 float score(const SkeletonProfile& profile, const RawClip& clip);
 
 // The best fit with all four limbs; among equals the one whose own axes and units fit, then the one
-// that names more joints, then the first. A profile whose legs have no human length comes last.
+// whose prefix the file's names have, then the one that names more joints, then the first. A
+// profile whose legs have no human length comes last.
 Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profiles,
                                      const RawClip& clip);
 

@@ -84,6 +84,19 @@ std::vector<std::pair<std::string, std::string>> names_of(const SkeletonProfile&
   return names;
 }
 
+// Without toes LaFAN1's and Mixamo's joints are the same.
+TEST(Profile, AmongEqualsTheOneWhosePrefixTheNamesHaveWins) {
+  const auto without_toes = [](const std::string& prefix) {
+    RawClip clip = motion_builder(prefix, true);
+    for (RawJoint& joint : clip.joints)
+      if (joint.name.ends_with("ToeBase")) joint.name = "tip";
+    return clip;
+  };
+  const auto known = profiles();
+  EXPECT_EQ(best_profile(known, without_toes("mixamorig:"))->name, "mixamo");
+  EXPECT_EQ(best_profile(known, without_toes("Someone:"))->name, "lafan1");
+}
+
 TEST(Profile, AxesAndUnitsDecideBetweenProfilesOfTheSameNames) {
   const auto known = profiles();
   const Quat same(1, 0, 0, 0);
