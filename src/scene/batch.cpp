@@ -182,7 +182,11 @@ Result<void> run_batch(Batch& batch, const MotionLibrary& library, const SceneFi
 }
 
 std::string bouts_jsonl(const Batch& batch) {
-  std::string out = json{{"type", "header"}, {"scene", batch.scene}, {"setup", batch.setup}}.dump();
+  std::string out = json{{"type", "header"},
+                         {"scene", batch.scene},
+                         {"setup", batch.setup},
+                         {"bouts", batch.bouts.size()}}  // where fewer follow, the file is cut off
+                        .dump();
   out += '\n';
   for (const auto& [seed, report] : batch.bouts) out += report + '\n';
   return out;
@@ -190,6 +194,7 @@ std::string bouts_jsonl(const Batch& batch) {
 
 Result<Batch> read_bouts(const std::string& file, std::string_view text) {
   Batch batch;
+  std::optional<std::size_t> counted;  // bouts, where the header says so
   std::size_t number = 0;
   while (!text.empty()) {
     ++number;
@@ -212,6 +217,10 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
       if (word("type") != "header" || batch.scene.empty() || batch.setup.empty() ||
           has_control_characters(batch.scene + batch.setup))
         return bout_fault(file, number, "not the header line");
+      if (const auto count = read->find("bouts"); count != read->end()) {
+        if (!count->is_number_unsigned()) return bout_fault(file, number, "'bouts' is no count");
+        counted = *count;
+      }
       continue;
     }
     if (const std::string what = wrong_with(*read, batch.scene); !what.empty())
@@ -221,6 +230,13 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
       return bout_fault(file, number, fmt::format("seed {} stands there twice", seed));
   }
   if (number == 0) return bout_fault(file, 1, "the file is empty");
+  if (counted && *counted != batch.bouts.size()) {
+    return bout_fault(
+        file, number,
+        fmt::format("the header counts {} bouts, and {} are there: {}", *counted,
+                    batch.bouts.size(),
+                    *counted < batch.bouts.size() ? "lines were added" : "the file is cut off"));
+  }
   return batch;
 }
 

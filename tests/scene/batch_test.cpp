@@ -148,7 +148,14 @@ TEST(BatchSummary, WhatIsNotABatchIsRefusedWithItsLine) {
            {good.substr(0, second) +
                 R"({"seed":1,"scene":"yard","fighters":[],"quality":{"skate":-1e200}})" + "\n",
             "line 2", "'skate' of quality is larger"},
-           {good + line, "line 6", "twice"}}) {
+           {good + line, "line 6", "twice"},
+           {good.substr(0, third), "line 2",
+            "counts 4 bouts, and 1 are there: the file is cut off"},
+           {good + with_fighters({"A"}), "line 6",
+            "counts 4 bouts, and 5 are there: lines were added"},
+           {R"({"type":"header","scene":"yard","setup":"00","bouts":-1})"
+            "\n",
+            "line 1", "no count"}}) {
     const auto read = read_bouts("b", text);
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().place, place) << text;
