@@ -132,7 +132,7 @@ std::string impossible(const HitReplay& replay) {
 json recomputed(const HitReplay& replay, ImpactOutcome outcome) {
   const Blow& blow = replay.input.blow;
   const std::int32_t damage = damage_of(blow, outcome);
-  if (replay.health - damage <= 0) {  // nobody stands without health
+  if (replay.health <= damage) {  // nobody stands without health
     outcome.response = ResponseKind::knockdown;
     outcome.knockout = true;
   }
