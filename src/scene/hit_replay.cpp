@@ -179,8 +179,9 @@ bool short_value(const json& value) {
   return !value.is_object();
 }
 
+// In ASCII: it may hold any character, and goes to the terminal.
 std::string text_of(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return value.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 
 // What stands otherwise in the event than the replay gives it; empty where nothing does.

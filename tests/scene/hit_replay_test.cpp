@@ -1,5 +1,7 @@
 #include "scene/hit_replay.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -204,6 +206,21 @@ TEST(HitReplay, AComparedValueIsAWordANumberOrThree) {
   }
   EXPECT_EQ(replayed(with("damage", "null"))->differ, 1u);
   EXPECT_EQ(replayed(with("part", "\"\""))->differ, 1u);
+  const auto report = replayed(with("part", "\"\xc2\x9b\""));
+  ASSERT_EQ(report->lines.size(), 1u);
+  EXPECT_THAT(report->lines[0], HasSubstr("part is \"\\u009b\""));  // no control character
+}
+
+TEST(HitReplay, WhoHasTheLeastHealthOfAllIsOut) {
+  const auto posed = posed_body(default_library(), query());
+  ASSERT_TRUE(posed);
+  const ImpactInput input = with_impulse(*posed, Part::head, {0, 0, -20}, 1);
+  const ImpactOutcome outcome = impulse_step(posed->body, input);
+  const auto report = replayed(
+      "{\"type\":\"header\"}\n{\"type\":\"hit\",\"replay\":\"" +
+      replay_text(posed->body, input, outcome, std::numeric_limits<std::int32_t>::min()) + "\"}\n");
+  ASSERT_TRUE(report) << to_string(report.error());
+  EXPECT_THAT(report->lines.at(0), HasSubstr("knockout is missing, recomputed true"));
 }
 
 TEST(HitReplay, AFightWithoutHitsHasNothingToDiffer) {
