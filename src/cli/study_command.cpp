@@ -137,6 +137,9 @@ Result<Pairing> style_pairing(const std::string& name, LeafValue leaf) {
   const std::string names[] = {name.substr(0, colon),
                                colon == std::string::npos ? name : name.substr(colon + 1)};
   for (std::size_t i = 0; i < 2; ++i) {
+    if (names[i].empty())
+      return usage_error("--pairings", "", fmt::format("'{}' lacks a style", name),
+                         "give two styles, as outboxer:infighter");
     const auto style = style_named(names[i]);
     if (!style) return tl::unexpected(style.error());
     pairing.side[i] = *style;
