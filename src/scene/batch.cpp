@@ -231,11 +231,12 @@ Result<Batch> read_bouts(const std::string& file, std::string_view text) {
   }
   if (number == 0) return bout_fault(file, 1, "the file is empty");
   if (counted && *counted != batch.bouts.size()) {
-    return bout_fault(
-        file, number,
+    return input_error(
+        file, fmt::format("line {}", number),
         fmt::format("the header counts {} bouts, and {} are there: {}", *counted,
                     batch.bouts.size(),
-                    *counted < batch.bouts.size() ? "lines were added" : "the file is cut off"));
+                    *counted < batch.bouts.size() ? "lines were added" : "the file is cut off"),
+        "fetch it again, or take 'bouts' out of its header to go on with what is there");
   }
   return batch;
 }
