@@ -83,10 +83,10 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   settings.judge = joint_limit_judge();
   settings.threads = options.threads;
   if (!options.out.empty()) {  // before the work
-    if (const auto may = may_write_library(options.out); !may) return fail(may.error());
     if (const auto folder = std::filesystem::path(options.out).parent_path(); !folder.empty()) {
       if (const auto made = make_output_folder(folder); !made) return fail(made.error());
     }
+    if (const auto may = may_write_library(options.out); !may) return fail(may.error());
   }
   const auto begin = std::chrono::steady_clock::now();
   const auto library = [&] {
