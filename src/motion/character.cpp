@@ -51,18 +51,22 @@ struct BoneFit {
   glm::mat3 stretch{1};
 };
 
-// What is not in the bones' lengths goes by the way from ankle to head joint, or by the whole
-// height where that is less: a big head on a small body does not grow with the body.
+// What is not in the bones' lengths goes by the way from ankle to head joint (or the highest of the
+// spine that is known), or by the whole height where that is less: a big head on a small body does
+// not grow with the body.
 float thickness(const Character& character, const WorldPose& rest, float height) {
   const auto span = [](Vec3 head, Vec3 left, Vec3 right) {
     return head.y - 0.5f * (left.y + right.y);
   };
   const auto bound = [&](Joint joint) { return *character.joint[index(joint)]; };
   const auto ours = [&](Joint joint) { return rest.position[index(joint)]; };
+  Joint top = Joint::head;
+  while (!character.joint[index(top)])
+    top = joint_at(static_cast<std::size_t>(kParent[index(top)]));  // the hips are always there
   const float joints =
-      span(ours(Joint::head), ours(Joint::left_foot), ours(Joint::right_foot)) /
-      std::max(span(bound(Joint::head), bound(Joint::left_foot), bound(Joint::right_foot)), 1e-3f);
-  float low = bound(Joint::left_foot).y, high = bound(Joint::head).y;
+      span(ours(top), ours(Joint::left_foot), ours(Joint::right_foot)) /
+      std::max(span(bound(top), bound(Joint::left_foot), bound(Joint::right_foot)), 1e-3f);
+  float low = bound(Joint::left_foot).y, high = bound(top).y;
   for (const CharacterPiece& piece : character.pieces)
     for (const Vec3& at : piece.position) {
       low = std::min(low, at.y);

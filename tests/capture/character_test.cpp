@@ -122,6 +122,18 @@ TEST(Character, ConformsToTheBodysTPose) {
   for (const Vec3& normal : pieces[0].normal) EXPECT_NEAR(glm::length(normal), 1, 1e-4f);
 }
 
+TEST(Character, WithoutAKnownHeadGoesByTheRestOfItsSpine) {
+  Hero hero;
+  hero.draft.json["nodes"][index(Joint::head)]["name"] = "skull";
+  const auto character = parse(hero.draft.glb()), whole = parse(Hero().draft.glb());
+  ASSERT_TRUE(character) << to_string(character.error());
+  ASSERT_FALSE(character->joint[index(Joint::head)]);
+  const auto pieces = conformed(*character, canonical_skeleton(1.9f));
+  const auto usual = conformed(*whole, canonical_skeleton(1.9f));
+  for (std::size_t v = 0; v < pieces[0].position.size(); ++v)
+    EXPECT_LT(glm::distance(pieces[0].position[v], usual[0].position[v]), 1e-3f);
+}
+
 TEST(Character, FaultsNameThePlaceAndTheRemedy) {
   const auto fault_of = [](const auto& change) {
     Hero hero;
