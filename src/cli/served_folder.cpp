@@ -88,7 +88,9 @@ std::string sentence_about(const fs::path& folder) {
   for (const char* name : {"report.json", "study.json", "bench.json"}) {
     std::error_code failed;
     const auto size = fs::file_size(folder / name, failed);
-    if (failed || size > kLargestReport || !fs::is_regular_file(folder / name, failed)) continue;
+    if (failed || size > kLargestReport || !fs::is_regular_file(folder / name, failed) ||
+        fs::is_symlink(folder / name, failed))  // it may lead out
+      continue;
     const auto text = read_file(folder / name);
     if (!text) continue;
     std::string why;
@@ -269,9 +271,9 @@ std::string ServedFolder::index_page() const {
     if (++seen > kMostEntries) break;
     const std::string name = at->path().filename().string();
     std::error_code unreadable;
-    if (!is_listed(name) || at.depth() >= kDeepest || at->is_symlink(unreadable))
-      at.disable_recursion_pending();
-    if (!is_listed(name)) continue;
+    const bool left_out = !is_listed(name) || at->is_symlink(unreadable);
+    if (left_out || at.depth() >= kDeepest) at.disable_recursion_pending();
+    if (left_out) continue;
     for (std::size_t i = 0; i < kResultPages.size(); ++i) {
       if (name != kResultPages[i].file || !at->is_regular_file(unreadable)) continue;
       rows[i].push_back({at->path().lexically_relative(root_).string(),

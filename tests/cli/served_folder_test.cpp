@@ -124,6 +124,19 @@ TEST_F(ServedFolderTest, TheIndexNamesResultsAndEscapesWhatTheySay) {
   EXPECT_THAT(page, Not(HasSubstr("Hits")));
 }
 
+TEST_F(ServedFolderTest, TheIndexFollowsNoLinks) {
+  write("outside/hit.html", "<p>a hit");
+  write("outside/study.json", R"({"title": "secret"})");
+  fs::create_symlink(base_ / "outside" / "hit.html", base_ / "out" / "hit.html");
+  write("out/study.html", "<p>a study");
+  fs::create_symlink(base_ / "outside" / "study.json", base_ / "out" / "study.json");
+  EXPECT_EQ(kind("/hit.html"), Kind::refused);
+  const std::string page = served().index_page();
+  EXPECT_THAT(page, HasSubstr("study.html"));
+  EXPECT_THAT(page, Not(HasSubstr("hit.html")));
+  EXPECT_THAT(page, Not(HasSubstr("secret")));
+}
+
 TEST_F(ServedFolderTest, WhatIsRefusedIsNotListed) {
   for (const std::string name : {"two\nlines", "back\\slash", "del\x7f", ".hidden"}) {
     fs::create_directories(base_ / "out" / "mine" / name);
