@@ -1,3 +1,5 @@
+#include <optional>
+
 #include <fmt/format.h>
 
 #include <spdlog/spdlog.h>
@@ -51,6 +53,7 @@ int write_sparring(const std::string& name, std::span<const Action> actions,
 
 int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
                      const std::filesystem::path& folder, const CommonOptions& options) {
+  std::optional<EndAtSignal> nothing_to_keep(std::in_place);
   std::vector<CapturedPerson> people;
   std::vector<Action> actions;
   for (const std::string& file : sparring.captures) {
@@ -72,6 +75,7 @@ int spar_in_captures(const SparringOptions& sparring, const BodyModel& body,
   std::vector<SparringRecord> records = pair_records(body, takes[0], takes[1]);
   const std::vector<SparringRecord> back = pair_records(body, takes[1], takes[0]);
   records.insert(records.end(), back.begin(), back.end());
+  nothing_to_keep.reset();
   return write_sparring(sparring.captures[0] + " and " + sparring.captures[1], actions, records,
                         folder, options);
 }

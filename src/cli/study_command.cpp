@@ -1,6 +1,7 @@
 #include "cli/study_command.h"
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -248,6 +249,7 @@ int run_cost_study(const StudyOptions& study, const CommonOptions& options) {
 }
 
 int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
+  std::optional<EndAtSignal> nothing_to_keep(std::in_place);
   const auto library = load_library(study.library.value_or("kickboxing"));
   if (!library) return fail(library.error());
   const auto spec = body_named(study.body);
@@ -261,6 +263,7 @@ int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
   const Study found = clips_study(first, second, placement, study.limit_m);
   bool beyond = false;
   for (const auto& row : found.table.rows) beyond |= std::get<std::int64_t>(row.back()) != 0;
+  nothing_to_keep.reset();
   return finish_study(found, beyond ? 1 : 0, options);
 }
 
