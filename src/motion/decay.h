@@ -13,8 +13,8 @@ namespace ringcraft {
 float seconds_to_move(float distance, float acceleration);
 float seconds_to_stop(float speed, float acceleration);
 
-// An offset that decays from a start value and velocity to nothing, with the least acceleration
-// that this takes in its time: constant one way, then the other.
+// An offset that decays from a start value and velocity to nothing, each of the two with the least
+// acceleration that it takes in its time: constant one way, then the other.
 class Decay {
  public:
   Decay() = default;
