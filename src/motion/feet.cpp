@@ -111,6 +111,7 @@ void Feet::let_go() {
     foot.turn = {};
     foot.by_joints = false;
     foot.load = 0;
+    foot.clearance = {};
   }
   sink_ = {};
 }
@@ -185,7 +186,6 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   // that stands does not go by the speeds of its leg's joints, which only cancel at the seam.
   foot.by_joints = simulated && !stands_still(foot);
   foot.lift = {};
-  foot.clearance = {};
   if (foot.mode == Mode::held) {
     if (stand_as_shown(foot)) foot.path = path;
     return;
@@ -390,14 +390,15 @@ Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, f
     foot.place = on_ground(clip_ball);
     foot.load = planted ? 1.0f : 0.0f;
   }
+  // Thrown aside by a blow, it would be drawn back along the floor.
+  const bool clears = after_simulation_ && foot.mode != Mode::held && !lies();
+  const Vec3 way = foot.by_joints ? blended_ball - clip_ball : foot.offset.value();
+  foot.clearance.follow(clears ? std::min(kClearest, kClears * glm::length(on_ground(way))) : 0.0f);
   const float arc = std::sin(kPi * std::min(1.0f, foot.rise_age / foot.rise_seconds));
   Vec3 ball = foot.offset.value() + kUp * (foot.rise * arc * arc);
   switch (foot.mode) {
     case Mode::swing:
       if (foot.by_joints) {
-        // Thrown aside, it would be dragged back along the floor.
-        const float way = glm::distance(on_ground(blended_ball), on_ground(clip_ball));
-        foot.clearance.follow(lies() ? 0.0f : std::min(kClearest, kClears * way));
         ball = blended_ball + kUp * foot.lift.of(blended_ball.y - floor - foot.clearance.value,
                                                  clip_ball.y - floor,
                                                  glm::smoothstep(0.0f, 1.0f, foot.reach_left));
@@ -416,6 +417,10 @@ Vec3 Feet::ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, f
   foot.rise_age += kTickSeconds;
   // A foot that a simulation threw slows before it meets the floor.
   if (after_simulation_ && foot.mode != Mode::held) {
+    if (!foot.by_joints) {
+      ball.y = std::max(ball.y, std::min(stands_at + foot.clearance.value,
+                                         foot.led.y + kMeetsFloor * kTickSeconds));
+    }
     ball.y = std::max(ball.y, foot.ball.y - fastest_descent(foot, floor) * kTickSeconds);
   }
   // Never under the floor; one that a simulation left there comes up as its offset decays.
