@@ -86,7 +86,7 @@ class Feet {
     Quat shown, shown_before;    // world rotation
     Vec3 led{}, led_before{};    // where the ball was to be, as far as the leg reached
     Lift lift;                   // of one that goes by joints
-    Clearance clearance;         // the same
+    Clearance clearance;         // of one on its way
     Vec3 clip_ball{};            // the clip's, one tick ago
     Quat clip_turn;              // the same of the foot's world rotation
     Knee knee;
