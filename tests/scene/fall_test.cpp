@@ -152,7 +152,7 @@ bool astride(const BodyCapsules& stands, const BodyCapsules& lies) {
 // Two of six are out at the first blow, and the others fight on where they lie.
 TEST(Fall, WhoFightsOnDoesNotStandAstrideWhoLies) {
   Tick lain = 0, stood_astride = 0;
-  for (const std::uint64_t seed : {1, 6, 8}) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SceneFile scene = crowd(seed, 1.1f);
     scene.duration = 15 * kTicksPerSecond;
     scene.ring = 5;
@@ -182,7 +182,7 @@ TEST(Fall, WhoFightsOnDoesNotStandAstrideWhoLies) {
       }
     }
   }
-  EXPECT_GT(lain, 10 * kTicksPerSecond);
+  EXPECT_GT(lain, 100 * kTicksPerSecond);
   EXPECT_LT(stood_astride, lain / 50);
 }
 
