@@ -5,6 +5,7 @@
 
 #include "base/ticks.h"
 #include "motion/pose.h"
+#include "motion/spring.h"
 
 namespace ringcraft {
 
@@ -26,10 +27,7 @@ class Easing {
     const T change = wants - 2.0f * wanted_ + wanted_before_;
     const float far = size(change);
     if (far > most) velocity_ -= change * ((1 - most / far) / kTickSeconds);
-    const T slope = velocity_ + eased_ * rate;
-    const float fade = std::exp(-rate * kTickSeconds);
-    eased_ = (eased_ + slope * kTickSeconds) * fade;
-    velocity_ = slope * fade - eased_ * rate;
+    settle(eased_, velocity_, rate);
     wanted_before_ = wanted_;
     wanted_ = wants;
     clip_before_ = clip_;

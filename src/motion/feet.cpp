@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "motion/ik.h"
+#include "motion/spring.h"
 
 namespace ringcraft {
 
@@ -280,14 +281,13 @@ bool Feet::lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) 
          glm::distance(foot.ball, clip_ball) < kLongestWait;
 }
 
-// Down with what is needed at once, up again as a critically damped spring lets it.
+// Down with what is needed at once, up again softly.
 void Feet::Sink::follow(float needed) {
   const float before = value;
-  const float slope = velocity + (value - needed) * kRiseRate;
-  const float fade = std::exp(-kRiseRate * kTickSeconds);
-  const float over = (value - needed + slope * kTickSeconds) * fade;
+  float over = value - needed;
+  settle(over, velocity, kRiseRate);
   value = needed + std::max(0.0f, over);
-  velocity = over > 0 ? slope * fade - over * kRiseRate : (needed - before) / kTickSeconds;
+  if (over <= 0) velocity = (needed - before) / kTickSeconds;
 }
 
 // What the foot does from this tick on. `floor`: height of the ball when the foot stands.
@@ -360,12 +360,10 @@ float Feet::Lift::of(float height, float clip_height, float begun) {
   return lift(height) - at_first * begun - lift(clip_height) * (1 - begun);
 }
 
-// As a critically damped spring.
 void Feet::Clearance::follow(float wanted) {
-  const float off = value - wanted, slope = velocity + off * kClearRate;
-  const float fade = std::exp(-kClearRate * kTickSeconds);
-  value = wanted + (off + slope * kTickSeconds) * fade;
-  velocity = slope * fade - (value - wanted) * kClearRate;
+  float off = value - wanted;
+  settle(off, velocity, kClearRate);
+  value = wanted + off;
 }
 
 // Height of the ball of a foot that stands, turned as it is going to be shown.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/ik.h"
+#include "motion/spring.h"
 #include "physics/limits.h"
 
 namespace ringcraft {
@@ -17,7 +18,7 @@ constexpr float kLanded = .005f;       // m: one that comes down so far stands f
 constexpr float kLetGo = .08f;         // s in which what held a foot falls to a third
 constexpr float kRise = .045f;         // m: of a sole that is dragged, clear of the floor
 constexpr float kDragged = .015f;      // m: by which it is dragged when it is as high as that
-constexpr float kRiseRate = 50;        // 1/s: of the critically damped spring that lifts it
+constexpr float kRiseRate = 50;        // 1/s: of the spring (motion/spring.h) that lifts it
 constexpr float kBeyond = radians(5);  // of its range: a leg that would go farther lets go
 constexpr float kSoft = .95f;  // of the leg's length: beyond it the leg stretches ever more slowly
 constexpr float kLongest = .9995f;
@@ -69,11 +70,9 @@ StandingFeet::StandingFeet(const BodyModel& body, const ImpactFrame& frame) : bo
 }
 
 void StandingFeet::Foot::rise_to(float height) {
-  const float slope = rising + (rise - height) * kRiseRate;
-  const float fade = std::exp(-kRiseRate * kTickSeconds);
-  const float over = (rise - height + slope * kTickSeconds) * fade;
+  float over = rise - height;
+  settle(over, rising, kRiseRate);
   rise = height + over;
-  rising = slope * fade - over * kRiseRate;
 }
 
 void StandingFeet::hold(Pose& pose) {

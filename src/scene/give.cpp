@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/ticks.h"
+#include "motion/spring.h"
 #include "physics/penetration.h"
 
 namespace ringcraft {
@@ -39,10 +40,7 @@ void ArmGive::drive(Vec3 velocity) {
 
 void ArmGive::step() {
   if (at_rest()) return;
-  const float fade = std::exp(-kSpringRate * kTickSeconds);
-  const Vec3 slope = velocity_ + kSpringRate * offset_;
-  offset_ = (offset_ + slope * kTickSeconds) * fade;
-  velocity_ = (velocity_ - kSpringRate * kTickSeconds * slope) * fade;
+  settle(offset_, velocity_, kSpringRate);
   if (glm::length(offset_) < kRests && glm::length(velocity_) * kTickSeconds < kRests) *this = {};
 }
 
