@@ -96,6 +96,10 @@ int run_view(const ViewOptions& view, const CommonOptions& options) {
     if (!fs::is_regular_file(view.what, failed))
       return fail({ErrorKind::input, view.what, "", "no such page", "check the path"});
     page = view.what;
+  } else if (const fs::path kind = fs::path(view.what).extension();
+             !kind.empty() && kind != ".toml" && fs::is_regular_file(view.what, failed)) {
+    return fail({ErrorKind::input, view.what, "", "neither a page nor a scene",
+                 "name the fight.html beside it, or a scene"});
   }
   const char* of_fights = !options.out.empty()    ? "--out"
                           : options.seed          ? "--seed"
