@@ -31,7 +31,6 @@ constexpr float kGatherIn = .2f;                          // s in which that set
 constexpr float kGatherTone = .6f;
 constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
 constexpr float kMostGather = 3.0f;  // s after the landing
-constexpr float kRolling = .6f;      // m/s: a body that moves faster has not found its lying pose
 constexpr float kResting = .15f;     // m/s
 constexpr float kRestFor = .25f;     // s
 constexpr float kLow = .6f;  // of the leg's length: a body whose hips are lower is not on its feet
@@ -473,12 +472,10 @@ class Shown {
     return still_ >= kRestFor && pose.hips.y < kLow * body_.skeleton.leg_length();
   }
 
-  // Aims at the nearest lying pose; while the body still rolls, that may change.
+  // Aims at the nearest lying pose, which changes where the body rolls over.
   void gather(float since_landing) {
     const NearestLying nearest = nearest_lying(body_.skeleton, lying_, frame_.out(ragdoll_.pose()));
     astray_ = nearest.apart > kAstray && since_landing < kMostGather;
-    if (gathering_ && glm::length(ragdoll_.motion(Part::chest).velocity) < kRolling) return;
-    gathering_ = true;
     protective_ = frame_.in(lying_[nearest.pose]);
   }
 
@@ -520,7 +517,7 @@ class Shown {
   Pose within_;                // the last pose looked at
   float into_clip_, meet_by_;  // s
   int steps_of_blow_;
-  bool protecting_ = false, gathering_ = false;
+  bool protecting_ = false;
   bool astray_ = false;     // far from every lying pose
   float astray_share_ = 0;  // 0 .. 1: that, as it sets in
   Pose protective_;

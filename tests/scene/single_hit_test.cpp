@@ -122,6 +122,24 @@ TEST(SingleHit, WhoLiesDoesNotTremble) {
   for (std::size_t t = up.begin - 60; t < up.begin; ++t) EXPECT_LT(up.moved(t), .004f) << t;
 }
 
+// One that has rolled over, slowly, from its side onto its back. It went on with what it aimed at
+// before, with both gloves in the air, until its time was up.
+TEST(SingleHit, WhoGetsUpHasComeToLieAsItsGetUpBegins) {
+  HitQuery rolled = query("pivot_right", .251615869);
+  rolled.part = Part::chest;
+  rolled.impulse = {-74.373573f, 0, 92.267189f};
+  rolled.tone = .75834763f;
+  for (const HitQuery& hit : {rolled}) {
+    const GetUp up = get_up_after(hit);
+    ASSERT_GT(up.begin, 0u);
+    const auto lying = lying_poses(default_library(), up.skeleton(), Stance::orthodox);
+    EXPECT_LT(nearest_lying(up.skeleton(), lying, up.shown(up.begin)).apart, .06f) << hit.action;
+    for (std::size_t t = up.begin - 20; t < up.begin; ++t) {
+      EXPECT_LT(up.moved(t), .004f) << hit.action << ' ' << t;
+    }
+  }
+}
+
 // The launch that answers the hit; without an action where there is none.
 Launch response_of(const HitAnswer& answer) {
   for (const Segment& one : answer.timeline.tracks.front().segments) {
