@@ -31,6 +31,7 @@ constexpr float kGatherIn = .2f;                          // s in which that set
 constexpr float kGatherTone = .6f;
 constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
 constexpr float kMostGather = 3.0f;  // s after the landing
+constexpr float kLed = radians(60);  // most, by which an upper arm is ahead of where it is
 constexpr float kResting = .15f;     // m/s
 constexpr float kRestFor = .25f;     // s
 constexpr float kLow = .6f;  // of the leg's length: a body whose hips are lower is not on its feet
@@ -463,7 +464,23 @@ class Shown {
     }
     const float in = kTickSeconds / kGatherIn;
     astray_share_ = std::clamp(astray_share_ + (astray_ ? in : -in), 0.0f, 1.0f);
-    ragdoll_.track(protective_, protective_, protective_, kTickSeconds);
+    const Pose aim = gathering_ ? arms_led(protective_) : protective_;
+    ragdoll_.track(aim, aim, aim, kTickSeconds);
+  }
+
+  // An arm that has far to go is led round inside its shoulder's range: the shortest turn can end
+  // at the end of that, and the arm would stay there.
+  Pose arms_led(Pose aim) const {
+    const Pose pose = ragdoll_.pose();
+    for (const Side side : {Side::left, Side::right}) {
+      const BallJoint shoulder = ball_joint(arm(side));
+      const std::size_t j = index(arm(side).root);
+      const float far = glm::distance(ball_turns(shoulder, side, pose.rotation[j]),
+                                      ball_turns(shoulder, side, aim.rotation[j]));
+      if (far <= kLed) continue;
+      aim.rotation[j] = mix_root(side, arm(side), pose.rotation[j], aim.rotation[j], kLed / far);
+    }
+    return aim;
   }
 
   // Whether it has come to rest on knees or hands, its trunk off the ground: it lies down from
@@ -476,6 +493,7 @@ class Shown {
   void gather(float since_landing) {
     const NearestLying nearest = nearest_lying(body_.skeleton, lying_, frame_.out(ragdoll_.pose()));
     astray_ = nearest.apart > kAstray && since_landing < kMostGather;
+    gathering_ = true;
     protective_ = frame_.in(lying_[nearest.pose]);
   }
 
@@ -517,7 +535,7 @@ class Shown {
   Pose within_;                // the last pose looked at
   float into_clip_, meet_by_;  // s
   int steps_of_blow_;
-  bool protecting_ = false;
+  bool protecting_ = false, gathering_ = false;
   bool astray_ = false;     // far from every lying pose
   float astray_share_ = 0;  // 0 .. 1: that, as it sets in
   Pose protective_;

@@ -119,7 +119,7 @@ TEST(SingleHit, WhoLiesDoesNotTremble) {
   hit.tone = .6828f;
   const GetUp up = get_up_after(hit);
   ASSERT_GT(up.begin, 60u);
-  for (std::size_t t = up.begin - 60; t < up.begin; ++t) EXPECT_LT(up.moved(t), .004f) << t;
+  for (std::size_t t = up.begin - 48; t < up.begin; ++t) EXPECT_LT(up.moved(t), .004f) << t;
 }
 
 // One that has rolled over, slowly, from its side onto its back. It went on with what it aimed at
