@@ -31,13 +31,16 @@ constexpr float kGatherIn = .2f;                          // s in which that set
 constexpr float kGatherTone = .6f;
 constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
 constexpr float kMostGather = 3.0f;  // s after the landing
+constexpr float kNearer = .01f;      // m: a body that comes no nearer than by this
+constexpr float kStuckFor = .4f;     // in so many s is stuck
+constexpr float kRollsFor = .6f;     // s for which it then aims at lying on its back
 constexpr float kLed = radians(60);  // most, by which an upper arm is ahead of where it is
 constexpr float kResting = .15f;     // m/s
 constexpr float kRestFor = .25f;     // s
 constexpr float kLow = .6f;  // of the leg's length: a body whose hips are lower is not on its feet
-constexpr float kMostAfterLanding = 4.0f;  // s
+constexpr float kMostAfterLanding = 5.0f;  // s
 constexpr Tick kReposes = 12;              // a body that has come to rest
-constexpr Tick kMostLater = 240;           // than asked for, a body comes to rest
+constexpr Tick kMostLater = 360;           // than asked for, a body comes to rest
 constexpr int kPunchSteps = 3;     // of 1/240 s over which a punch's impulse is spread (12 ms)
 constexpr int kKickSteps = 12;     // of a kick (50 ms)
 constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
@@ -489,12 +492,28 @@ class Shown {
     return still_ >= kRestFor && pose.hips.y < kLow * body_.skeleton.leg_length();
   }
 
-  // Aims at the nearest lying pose, which changes where the body rolls over.
+  // Aims at the nearest lying pose. A body that comes no nearer lies on a limb that should go
+  // there: for a while it aims at lying on its back, which rolls it off.
   void gather(float since_landing) {
     const NearestLying nearest = nearest_lying(body_.skeleton, lying_, frame_.out(ragdoll_.pose()));
     astray_ = nearest.apart > kAstray && since_landing < kMostGather;
+    if (!astray_ || nearest.apart < apart_ - kNearer || stuck_ > kStuckFor + kRollsFor) {
+      apart_ = nearest.apart;
+      stuck_ = 0;
+    }
+    stuck_ += kTickSeconds;
     gathering_ = true;
-    protective_ = frame_.in(lying_[nearest.pose]);
+    protective_ = frame_.in(lying_[stuck_ > kStuckFor ? on_back() : nearest.pose]);
+  }
+
+  // The lying pose whose chest faces up most.
+  std::size_t on_back() const {
+    const auto up = [&](const Pose& pose) {
+      return (world_pose(body_.skeleton, pose).rotation[index(Joint::chest)] * kForward).y;
+    };
+    const auto most = std::max_element(lying_.begin(), lying_.end(),
+                                       [&](const Pose& a, const Pose& b) { return up(a) < up(b); });
+    return static_cast<std::size_t>(most - lying_.begin());
   }
 
   Pose fall_tick(Tick tick) {
@@ -539,6 +558,8 @@ class Shown {
   bool astray_ = false;     // far from every lying pose
   float astray_share_ = 0;  // 0 .. 1: that, as it sets in
   Pose protective_;
+  float apart_ = 1;    // m, from every lying pose: the least of late
+  float stuck_ = 0;    // s for which it has come no nearer
   float landed_ = -1;  // s: when the trunk met the ground; before that negative
   float still_ = 0;    // s for which everything has been at rest
   std::optional<Pose> rested_;

@@ -122,14 +122,24 @@ TEST(SingleHit, WhoLiesDoesNotTremble) {
   for (std::size_t t = up.begin - 48; t < up.begin; ++t) EXPECT_LT(up.moved(t), .004f) << t;
 }
 
-// One that has rolled over, slowly, from its side onto its back. It went on with what it aimed at
-// before, with both gloves in the air, until its time was up.
+// One that lies on the arm which its get-up has in front of it: held against its own weight, the
+// arm stayed, and went 14 cm through the belly where the get-up began. One that has rolled from its
+// side onto its back, with what it aimed at before. And one that stood on its head and a foot: it
+// fell when its muscles let go, and got up on the way.
 TEST(SingleHit, WhoGetsUpHasComeToLieAsItsGetUpBegins) {
+  HitQuery on_its_arm = query("shuffle_back_short", .183112505);
+  on_its_arm.part = Part::left_thigh;
+  on_its_arm.impulse = {36.52803f, 0, -110.18712f};
+  on_its_arm.tone = .813622f;
   HitQuery rolled = query("pivot_right", .251615869);
   rolled.part = Part::chest;
   rolled.impulse = {-74.373573f, 0, 92.267189f};
   rolled.tone = .75834763f;
-  for (const HitQuery& hit : {rolled}) {
+  HitQuery on_its_head = query("step_away_back_left", .146298396);
+  on_its_head.part = Part::left_thigh;
+  on_its_head.impulse = {1.1223419f, 0, -112.28775f};
+  on_its_head.tone = .85719764f;
+  for (const HitQuery& hit : {on_its_arm, rolled, on_its_head}) {
     const GetUp up = get_up_after(hit);
     ASSERT_GT(up.begin, 0u);
     const auto lying = lying_poses(default_library(), up.skeleton(), Stance::orthodox);
