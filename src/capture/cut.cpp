@@ -286,21 +286,4 @@ Result<Action> cut_action(const Skeleton& skeleton, const Clip& capture,
   return action;
 }
 
-std::optional<Misplaced> misplaced(Kind kind, const std::optional<Response>& response, Lying starts,
-                                   Lying ends) {
-  if (response && kind != Kind::response)
-    return Misplaced{"response", "only an action of kind 'response' answers a blow",
-                     "take the response out, or make it the action's kind"};
-  if (response && (response->kind == ResponseKind::recovery_steps) != (response->steps > 0))
-    return Misplaced{"response", "its steps do not fit its kind",
-                     "give recovery_steps 1 to 3 steps, and the other kinds none"};
-  if (starts != Lying::none && kind != Kind::get_up)
-    return Misplaced{"starts_lying", "only a get-up starts lying",
-                     "take it out, or make the kind 'get-up'"};
-  if (ends != Lying::none && kind != Kind::response)
-    return Misplaced{"ends_lying", "only a response ends lying",
-                     "take it out, or make the kind 'response'"};
-  return std::nullopt;
-}
-
 }  // namespace ringcraft

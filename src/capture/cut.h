@@ -69,14 +69,4 @@ Tick fastest_tick(const Skeleton& skeleton, const Clip& clip, Joint joint, Tick 
 // A moment as a clip of its own, five ticks, for alignment.
 Clip window_about(const Clip& capture, Tick tick);
 
-// What a sheet or a manifest says of an action that its kind cannot have: the key, what is wrong
-// with it and what to do.
-struct Misplaced {
-  const char* key = "";
-  const char* what = "";
-  const char* remedy = "";
-};
-std::optional<Misplaced> misplaced(Kind kind, const std::optional<Response>& response, Lying starts,
-                                   Lying ends);
-
 }  // namespace ringcraft

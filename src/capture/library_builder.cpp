@@ -151,12 +151,9 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
   };
   for (std::size_t i = 0; i < listed.size(); ++i) {
     const std::string place = of.manifest.place(fmt::format("{}/action/{}/name", of.pointer, i));
-    if ((listed[i].kind == Kind::attack || listed[i].kind == Kind::combination) &&
-        listed[i].strikes.empty())
-      return input_error(file, place, fmt::format("{} strikes nothing", listed[i].name),
-                         "give it a [[capture.action.strike]], or another kind");
     const ActionCut& cut = listed[i];
-    if (const auto wrong = misplaced(cut.kind, cut.response, cut.starts_lying, cut.ends_lying)) {
+    if (const auto wrong = misplaced(cut.kind, !cut.strikes.empty(), cut.response, cut.starts_lying,
+                                     cut.ends_lying)) {
       const std::string key = fmt::format("{}/action/{}/{}", of.pointer, i, wrong->key);
       return input_error(file, of.manifest.place(key), cut.name + ": " + wrong->what,
                          wrong->remedy);

@@ -143,8 +143,9 @@ class Reader {
                    "window = [from, to] with from < to <= length");
     }
     const Action& action = result.action;
-    if (const auto wrong =
-            misplaced(action.kind, action.response, action.starts_lying, action.ends_lying)) {
+    const bool strikes = table.contains("strike") && !table["strike"].empty();
+    if (const auto wrong = misplaced(action.kind, strikes, action.response, action.starts_lying,
+                                     action.ends_lying)) {
       return fault(pointer + "/" + wrong->key, action.name + ": " + wrong->what, wrong->remedy);
     }
     if (auto keys = read_keys(table, pointer, result); !keys) return tl::unexpected(keys.error());

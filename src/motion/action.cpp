@@ -109,6 +109,27 @@ std::optional<Lying> lying_from_name(std::string_view name) {
   return value_in<Lying>(kLyings, name);
 }
 
+std::optional<Misplaced> misplaced(Kind kind, bool strikes, const std::optional<Response>& response,
+                                   Lying starts, Lying ends) {
+  if ((kind == Kind::attack || kind == Kind::combination) && !strikes)
+    return Misplaced{"kind", "it strikes nothing", "give it a strike, or another kind"};
+  if (response && kind != Kind::response)
+    return Misplaced{"response", "only an action of kind 'response' answers a blow",
+                     "take the response out, or make it the action's kind"};
+  if (!response && kind == Kind::response)
+    return Misplaced{"kind", "a response to nothing", "give it a response, or another kind"};
+  if (response && (response->kind == ResponseKind::recovery_steps) != (response->steps > 0))
+    return Misplaced{"response", "its steps do not fit its kind",
+                     "give recovery_steps 1 to 3 steps, and the other kinds none"};
+  if (starts != Lying::none && kind != Kind::get_up)
+    return Misplaced{"starts_lying", "only a get-up starts lying",
+                     "take it out, or make the kind 'get-up'"};
+  if (ends != Lying::none && !(response && response->kind == ResponseKind::knockdown))
+    return Misplaced{"ends_lying", "only a response of kind 'knockdown' ends lying",
+                     "take it out, or make the response's kind 'knockdown'"};
+  return std::nullopt;
+}
+
 Action mirrored(const Action& action) {
   Action result = action;
   result.name = mirrored_name(action.name);

@@ -129,6 +129,16 @@ std::optional<DefenseKind> defense_kind_from_name(std::string_view name);
 std::optional<ResponseKind> response_kind_from_name(std::string_view name);
 std::optional<Lying> lying_from_name(std::string_view name);
 
+// What is said of an action that its kind cannot have, or cannot be without: the key, what is wrong
+// with it and what to do.
+struct Misplaced {
+  const char* key = "";
+  const char* what = "";
+  const char* remedy = "";
+};
+std::optional<Misplaced> misplaced(Kind kind, bool strikes, const std::optional<Response>& response,
+                                   Lying starts, Lying ends);
+
 // The same action for the other hand: "jab_left" becomes "jab_right", clip, strikes and response
 // swap.
 Action mirrored(const Action& action);

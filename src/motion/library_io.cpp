@@ -185,13 +185,18 @@ class LibraryReader {
   std::string read_edges(BytesIn& in) {
     constexpr std::size_t kEdgeBytes = 4 + 16;
     edges_.resize(parts_.actions.size());
-    for (std::vector<Edge>& edges : edges_) {
+    for (std::size_t from = 0; from < edges_.size(); ++from) {
+      std::vector<Edge>& edges = edges_[from];
       const std::size_t count = in.get_count(kEdgeBytes);
       edges.reserve(count);
       for (std::size_t i = 0; i < count; ++i) {
         const ActionId to(in.get<std::int32_t>());
         const Alignment alignment = get_alignment(in);
         if (!known(to) || !finite(alignment)) return "an edge leads nowhere";
+        if (!may_stand(parts_.actions[from], parts_.actions[to.at()])) {
+          return fmt::format("{} cannot follow {}", parts_.actions[to.at()].name,
+                             parts_.actions[from].name);
+        }
         edges.push_back({to, alignment});
       }
       if (in.ok() && edges.empty()) return "an action that nothing can follow";

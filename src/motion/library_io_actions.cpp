@@ -173,7 +173,10 @@ std::string wrong_with(const Action& action) {
   if (action.defense && !inside(action.defense->begin, action.defense->end, action.length())) {
     return "a defense outside of it";
   }
-  if (action.kind == Kind::response && !action.response) return "a response to nothing";
+  if (const auto wrong = misplaced(action.kind, action.attacks(), action.response,
+                                   action.starts_lying, action.ends_lying)) {
+    return wrong->what;
+  }
   if (action.response && (!std::isfinite(action.response->direction) ||
                           action.response->steps < 0 || action.response->steps > 3)) {
     return "a response of no steps or direction";

@@ -21,10 +21,9 @@ Cloud end_cloud(const Skeleton& skeleton, const Clip& clip) {
 
 bool edge_allowed(const Action& from, const Action& to, float distance,
                   const StateMachineSettings& settings) {
-  if (from.ends_lying != Lying::none) {  // only a get-up follows a fall, whatever way it lies
-    return to.kind == Kind::get_up;
-  }
-  if (to.forced() || !may_lead(from, to)) return false;
+  if (!may_stand(from, to)) return false;
+  if (from.ends_lying != Lying::none) return true;  // whatever way it lies
+  if (!may_lead(from, to)) return false;
   return distance <= (from.forced() ? settings.response_threshold : settings.threshold);
 }
 
@@ -183,6 +182,10 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
 }
 
 }  // namespace
+
+bool may_stand(const Action& from, const Action& to) {
+  return from.ends_lying != Lying::none ? to.kind == Kind::get_up : !to.forced();
+}
 
 Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& second) {
   return align(end_cloud(skeleton, first), start_cloud(skeleton, second));

@@ -21,6 +21,10 @@ Alignment aligned(const Skeleton& skeleton, const Clip& first, const Clip& secon
 // Best floor-plane placement of the start of `clip` on a pose that is given in the world.
 Alignment aligned(const Skeleton& skeleton, const Pose& world, const Clip& clip);
 
+// Whether an edge may lead from the one to the other: only a get-up follows a fall, and nothing
+// else leads to what is forced.
+bool may_stand(const Action& from, const Action& to);
+
 struct Edge {
   ActionId to;
   Alignment alignment;

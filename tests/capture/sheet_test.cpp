@@ -93,6 +93,11 @@ TEST(Sheet, MistakesOfThePersonWhoWritesAreErrorsWithAPlace) {
       {"name = \"a\"\nkind = \"response\"\nlength = 0.5\n"
        "response = { kind = \"recovery_steps\" }\n",
        "steps do not fit"},
+      {"name = \"a\"\nkind = \"response\"\nlength = 0.5\n", "response to nothing"},
+      {"name = \"a\"\nkind = \"attack\"\nlength = 0.5\n", "strikes nothing"},
+      {"name = \"a\"\nkind = \"response\"\nlength = 0.5\nends_lying = \"back\"\n"
+       "response = { kind = \"absorb\" }\n",
+       "'knockdown' ends lying"},
       {head + "length = 0.4\n", ""},
       {"name = \"a\"\nkind = \"transition\"\nlength = 1e9\n", ""},
   };

@@ -234,6 +234,10 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_THAT(refused([](auto& a) { a[1].strikes[0].joint = Joint::spine; }), HasSubstr("strike"));
   EXPECT_THAT(refused([](auto& a) { a[1].strikes.resize(9, a[1].strikes[0]); }),
               HasSubstr("jab_left"));
+  EXPECT_THAT(refused([](auto& a) { a[1].strikes.clear(); }), HasSubstr("strikes nothing"));
+  EXPECT_THAT(refused([](auto& a) { a[4].response->steps = 0; }), HasSubstr("steps do not fit"));
+  EXPECT_THAT(refused([](auto& a) { a[4].ends_lying = Lying::back; }), HasSubstr("'knockdown'"));
+  EXPECT_THAT(refused([](auto& a) { a[0].starts_lying = Lying::back; }), HasSubstr("get-up"));
   EXPECT_THAT(refused([](auto& a) { a[2].defense->begin = -1; }), HasSubstr("guard"));
   EXPECT_THAT(refused([](auto& a) { a[4].response.reset(); }), HasSubstr("stagger"));
   EXPECT_THAT(refused([](auto& a) { a[0].clip.frames[3].hips.y = std::nanf(""); }),
@@ -242,6 +246,20 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_THAT(refused([](auto& a) { a[0].name = "step\xff"; }), HasSubstr("section"));
   EXPECT_THAT(refused([](auto& a) { a[0].name = "step\x1b[31m"; }), HasSubstr("control char"));
   EXPECT_THAT(refused([](auto& a) { a[0].source = "Box\xe9.bvh"; }), HasSubstr("section"));
+}
+
+TEST(LibraryIo, AnEdgeToWhatIsForcedIsRefused) {
+  // What follows a blow or a fall is never launched: a planner that is led there finds no launch.
+  const MotionLibrary good = sample();
+  std::vector<Action> actions = good.actions();
+  for (Action& action : actions) {
+    if (action.name != "step") continue;
+    action.kind = Kind::get_up;
+  }
+  const MotionLibrary bad({"bad", actions, good.machine(), {}, {}, {}, {}});
+  const auto read = library_from_bytes(library_bytes(bad), "x");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(to_string(read.error()), HasSubstr("step cannot follow"));
 }
 
 TEST(LibraryIo, NoBytesMakeItCrash) {
