@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kFrameBytes = (3 + 4 * kJointCount + 3) * sizeof(float) + 1;
 constexpr std::size_t kTextBytes = sizeof(std::uint32_t);  // of an empty one
+constexpr float kFarthestReach = 10;                       // m between the two roots
 constexpr std::size_t kStrikeBytes = 3 + 2 * sizeof(Tick) + sizeof(std::uint32_t) + 8;
 
 void put_strike(BytesOut& out, const Strike& strike) {
@@ -60,9 +61,12 @@ bool inside(Tick begin, Tick end, Tick length) {
 }
 
 std::string wrong_strike(const Strike& strike, Tick length) {
-  if (!inside(strike.active_begin, strike.active_end, length)) return "a strike outside of it";
-  if (!std::isfinite(strike.nearest) || !std::isfinite(strike.farthest)) {
-    return "a distance that is no number";
+  if (!inside(strike.active_begin, strike.active_end, length) || strike.active_begin > length) {
+    return "a strike outside of it";
+  }
+  if (!(std::abs(strike.nearest) <= kFarthestReach) ||
+      !(std::abs(strike.farthest) <= kFarthestReach)) {
+    return "a strike from a distance that no blow has";
   }
   switch (strike.joint) {
     case Joint::left_hand:

@@ -234,6 +234,13 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_THAT(refused([](auto& a) { a[1].strikes[0].joint = Joint::spine; }), HasSubstr("strike"));
   EXPECT_THAT(refused([](auto& a) { a[1].strikes.resize(9, a[1].strikes[0]); }),
               HasSubstr("jab_left"));
+  EXPECT_THAT(
+      refused([](auto& a) { a[1].strikes[0].active_begin = a[1].strikes[0].active_end = 25; }),
+      HasSubstr("jab_left: a strike outside"));
+  for (const float reach : {-1e30f, 1e6f, std::nanf("")}) {
+    EXPECT_THAT(refused([&](auto& a) { a[1].strikes[0].nearest = reach; }), HasSubstr("no blow"));
+    EXPECT_THAT(refused([&](auto& a) { a[1].strikes[0].farthest = reach; }), HasSubstr("no blow"));
+  }
   EXPECT_THAT(refused([](auto& a) { a[1].strikes.clear(); }), HasSubstr("strikes nothing"));
   EXPECT_THAT(refused([](auto& a) { a[4].response->steps = 0; }), HasSubstr("steps do not fit"));
   EXPECT_THAT(refused([](auto& a) { a[4].ends_lying = Lying::back; }), HasSubstr("'knockdown'"));
