@@ -17,6 +17,7 @@ namespace {
 
 constexpr float kLargestNumber = 1e7f;
 constexpr std::size_t kMostNodes = 16384;
+constexpr std::size_t kMostClips = 4096;
 constexpr const char* kExportAgain = "export the file again";
 
 // Buffers beside the file: only regular files of the folder and below, none too large.
@@ -338,6 +339,9 @@ class Reader {
   }
 
   Result<void> animation(const std::string& clip) {
+    if (model_.animations.size() > kMostClips)
+      return fault("/animations", fmt::format("more than {} clips", kMostClips),
+                   "export fewer of them in one file");
     for (std::size_t i = 0; i < model_.animations.size(); ++i) {
       const std::string name = clean_name(model_.animations[i].name);
       out_.clips.push_back(name.empty() ? fmt::format("animation_{}", i) : name);

@@ -165,6 +165,10 @@ TEST(Gltf, HostileFilesAreRefusedWithAReason) {
       {with([](GltfDraft& d) { d.json["accessors"][0]["bufferView"] = 77; }), "no buffer view"},
       {with([](GltfDraft& d) { d.json["bufferViews"][0]["byteLength"] = 1 << 30; }), ""},
       {with([](GltfDraft& d) { d.json["bufferViews"][0]["buffer"] = 5; }), ""},
+      {with([](GltfDraft& d) {
+         d.json["animations"] = nlohmann::json(4097, d.json["animations"][0]);
+       }),
+       "more than 4096 clips"},
       {with([](GltfDraft& d) { d.json["animations"][0]["channels"][0]["sampler"] = 9; }),
        "no sampler"},
       {with([](GltfDraft& d) { d.json["animations"][0]["channels"][0]["target"]["node"] = 9; }),
