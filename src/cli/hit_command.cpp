@@ -8,8 +8,8 @@
 #include "base/file.h"
 #include "base/utf8.h"
 #include "capture/library_builder.h"
-#include "capture/library_file.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "io/outputs.h"
 #include "scene/hit_map.h"
 #include "scene/scene_file.h"
@@ -194,7 +194,7 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   inputs.insert(inputs.end(), {hit.body, hit.attacker});
   const auto folder = output_folder(options, "out/hit", names, inputs);
   if (!folder) return fail(folder.error());
-  const auto library = load_library(hit.library);
+  const auto library = library_for_blows(hit.library);
   if (!library) return fail(library.error());
   if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, *folder);
   if (const auto page = page_template(); !page) return fail(page.error());

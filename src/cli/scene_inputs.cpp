@@ -50,12 +50,19 @@ std::vector<std::filesystem::path> files_of(const SceneFile& scene) {
   return files;
 }
 
+Result<MotionLibrary> library_for_blows(const std::filesystem::path& library) {
+  auto loaded = load_library(library);
+  if (!loaded || !loaded->responses().empty()) return loaded;
+  return input_error(library.string(), "", "no action in it answers a blow",
+                     "give it actions of kind 'response'; `ringcraft library check` says which");
+}
+
 Result<MotionLibrary> library_of(const SceneFile& scene) {
   return library_of(scene, scene.library);
 }
 
 Result<MotionLibrary> library_of(const SceneFile& scene, const std::filesystem::path& library) {
-  auto loaded = load_library(library);
+  auto loaded = library_for_blows(library);
   if (!loaded) return tl::unexpected(loaded.error());
   if (auto done = check_feints(scene, *loaded); !done) return tl::unexpected(done.error());
   return library_for(scene, std::move(*loaded));

@@ -17,6 +17,9 @@ Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOption
 // Every file that the scene and its library name, themselves included.
 std::vector<std::filesystem::path> files_of(const SceneFile& scene);
 
+// A library in which who is struck finds an answer.
+Result<MotionLibrary> library_for_blows(const std::filesystem::path& library);
+
 // The scene's library, as its fighters need it (library_for).
 Result<MotionLibrary> library_of(const SceneFile& scene);
 // Another library for the same fighters.

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
-#include "capture/library_file.h"
+#include "cli/scene_inputs.h"
 #include "cli/study_command.h"
 #include "scene/study_hits.h"
 
 namespace ringcraft {
 
 int run_hits_study(const StudyOptions& study, const CommonOptions& options) {
-  const auto library = load_library(study.library.value_or("kickboxing"));
+  const auto library = library_for_blows(study.library.value_or("kickboxing"));
   if (!library) return fail(library.error());
   HitsSettings settings;
   if (study.count) settings.count = *study.count;

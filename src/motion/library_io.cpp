@@ -185,6 +185,10 @@ class LibraryReader {
   std::string read_edges(BytesIn& in) {
     constexpr std::size_t kEdgeBytes = 4 + 16;
     edges_.resize(parts_.actions.size());
+    if (std::all_of(parts_.actions.begin(), parts_.actions.end(),
+                    [](const Action& a) { return a.forced() || a.connects; })) {
+      return "no action in it can be launched";
+    }
     for (std::size_t from = 0; from < edges_.size(); ++from) {
       std::vector<Edge>& edges = edges_[from];
       const std::size_t count = in.get_count(kEdgeBytes);

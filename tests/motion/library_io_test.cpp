@@ -255,6 +255,17 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
   EXPECT_THAT(refused([](auto& a) { a[0].source = "Box\xe9.bvh"; }), HasSubstr("section"));
 }
 
+TEST(LibraryIo, OneThatNobodyCanFightWithIsRefused) {
+  const MotionLibrary good = sample();
+  std::vector<Action> actions = good.actions();
+  for (Action& action : actions) action.kind = Kind::get_up;
+  for (const auto& forced : {actions, std::vector<Action>{}}) {
+    const MotionLibrary bad(LibraryParts{"bad", forced, good.machine(), {}, {}, {}, {}});
+    const auto read = library_from_bytes(library_bytes(bad), "x");
+    ASSERT_FALSE(read);
+  }
+}
+
 TEST(LibraryIo, AnEdgeToWhatIsForcedIsRefused) {
   // What follows a blow or a fall is never launched: a planner that is led there finds no launch.
   const MotionLibrary good = sample();
