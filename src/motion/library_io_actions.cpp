@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kFrameBytes = (3 + 4 * kJointCount + 3) * sizeof(float) + 1;
 constexpr std::size_t kTextBytes = sizeof(std::uint32_t);  // of an empty one
+constexpr Tick kShortest = 12;                             // of what may be chosen, as of a cut
 constexpr float kFarthestReach = 10;                       // m between the two roots
 constexpr std::size_t kStrikeBytes = 3 + 2 * sizeof(Tick) + sizeof(std::uint32_t) + 8;
 
@@ -170,6 +171,7 @@ std::string wrong_with(const Action& action) {
     return "a name with control characters";
   const std::vector<std::string> broken = faults(action.clip);
   if (!broken.empty()) return broken.front();
+  if (action.length() < kShortest && !action.connects) return "it is shorter than 0.1 s";
   if (action.strikes.size() > kMostStrikes) return "more strikes than an action may have";
   for (const Strike& strike : action.strikes) {
     if (std::string wrong = wrong_strike(strike, action.length()); !wrong.empty()) return wrong;

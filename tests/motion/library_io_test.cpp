@@ -241,6 +241,8 @@ TEST(LibraryIo, ThatAnActionCannotBePlayedIsSaidByItsName) {
     EXPECT_THAT(refused([&](auto& a) { a[1].strikes[0].nearest = reach; }), HasSubstr("no blow"));
     EXPECT_THAT(refused([&](auto& a) { a[1].strikes[0].farthest = reach; }), HasSubstr("no blow"));
   }
+  EXPECT_THAT(refused([](auto& a) { a[3].clip = cut(a[3].clip, 0, 11); }), HasSubstr("0.1 s"));
+  EXPECT_EQ(refused([](auto& a) { a[3].clip = cut(a[3].clip, 0, 12); }), "");
   EXPECT_THAT(refused([](auto& a) { a[1].strikes.clear(); }), HasSubstr("strikes nothing"));
   EXPECT_THAT(refused([](auto& a) { a[4].response->steps = 0; }), HasSubstr("steps do not fit"));
   EXPECT_THAT(refused([](auto& a) { a[4].ends_lying = Lying::back; }), HasSubstr("'knockdown'"));
