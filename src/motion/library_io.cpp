@@ -197,7 +197,7 @@ class LibraryReader {
         const ActionId to(in.get<std::int32_t>());
         const Alignment alignment = get_alignment(in);
         if (!known(to) || !finite(alignment)) return "an edge leads nowhere";
-        if (!may_stand(parts_.actions[from], parts_.actions[to.at()])) {
+        if (!may_follow(parts_.actions[from], parts_.actions[to.at()])) {
           return fmt::format("{} cannot follow {}", parts_.actions[to.at()].name,
                              parts_.actions[from].name);
         }

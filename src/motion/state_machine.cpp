@@ -21,7 +21,7 @@ Cloud end_cloud(const Skeleton& skeleton, const Clip& clip) {
 
 bool edge_allowed(const Action& from, const Action& to, float distance,
                   const StateMachineSettings& settings) {
-  if (!may_stand(from, to)) return false;
+  if (!may_follow(from, to)) return false;
   if (from.ends_lying != Lying::none) return true;  // whatever way it lies
   if (!may_lead(from, to)) return false;
   return distance <= (from.forced() ? settings.response_threshold : settings.threshold);
@@ -183,7 +183,7 @@ std::vector<bool> largest_playable(const std::vector<Action>& actions, const Edg
 
 }  // namespace
 
-bool may_stand(const Action& from, const Action& to) {
+bool may_follow(const Action& from, const Action& to) {
   return from.ends_lying != Lying::none ? to.kind == Kind::get_up : !to.forced();
 }
 

@@ -23,7 +23,7 @@ Alignment aligned(const Skeleton& skeleton, const Pose& world, const Clip& clip)
 
 // Whether an edge may lead from the one to the other: only a get-up follows a fall, and nothing
 // else leads to what is forced.
-bool may_stand(const Action& from, const Action& to);
+bool may_follow(const Action& from, const Action& to);
 
 struct Edge {
   ActionId to;
