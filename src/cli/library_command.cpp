@@ -10,7 +10,7 @@
 #include "motion/strike_fit.h"
 #include "scene/fitted_library.h"
 #include "scene/library_check.h"
-#include "scene/sparring.h"
+#include "planner/sparring.h"
 
 namespace ringcraft {
 

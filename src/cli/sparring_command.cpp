@@ -12,7 +12,7 @@
 #include "scene/fitted_library.h"
 #include "scene/pair_sparring.h"
 #include "scene/scene_file.h"
-#include "scene/sparring.h"
+#include "planner/sparring.h"
 #include "scene/sparring_files.h"
 
 namespace ringcraft {

@@ -16,25 +16,6 @@ namespace {
 constexpr double kLookAhead = 1.0;  // s of location that a candidate is credited with
 constexpr double kAnswerable =
     0.6;  // share of an attack's worth against a body that may still answer
-// Share of a threat that a well-timed defense is expected to take, by where the blow goes: what
-// `ringcraft sparring` says of the surest of each kind at its best timing. Where the body will have
-// gone by then counts beside it.
-struct Protects {
-  double head, body, leg;
-};
-constexpr std::array<Protects, 7> kProtects = {{{.8, .5, .1},    // guard
-                                                {.8, .7, .1},    // parry
-                                                {.95, .5, 0},    // slip
-                                                {1, .8, .6},     // duck
-                                                {.9, .4, .05},   // sway
-                                                {.5, .5, 1},     // check
-                                                {.9, .9, .5}}};  // step away
-
-double protects(DefenseKind kind, TargetZone zone) {
-  const Protects& one = kProtects.at(static_cast<std::size_t>(kind));
-  return zone == TargetZone::head ? one.head : zone == TargetZone::body ? one.body : one.leg;
-}
-
 constexpr float kOutOfReach = 1.5f;  // m short of the opponent: an attack from there is none
 constexpr double kNoRopes = 1e6;     // m: so far away that nobody comes near them
 constexpr double kFeintWorth = 3;  // points that a feint is expected to bring who takes another in
@@ -86,10 +67,10 @@ float roams_from(const InFlight& flight, Tick now) {
 struct Duel::Aspect {
   struct Threat {  // a strike of the opponent that is still to come
     Tick begin = 0, end = 0;
-    Vec3 from{}, line{};  // its way on the ground, world
-    float length = 0;     // m: of the line
-    TargetZone zone = TargetZone::head;
-    double worth = 0;  // points it would cost
+    Vec3 from{}, line{};              // its way on the ground, world
+    float length = 0;                 // m: of the line
+    double worth = 0;                 // points it would cost
+    std::span<const float> answered;  // by action of who is threatened (protection.h)
   };
   const SideSetup* own = nullptr;
   const InFlight* opponent = nullptr;
@@ -154,7 +135,7 @@ void Duel::Aspect::add_protection(std::span<const NextAction> next,
           const Tick start = node_now + one.lead;
           const Tick begin = std::max(threat.begin, start + defense->begin);
           const Tick end = std::min(threat.end, start + defense->end);
-          share = std::max(share, protects(defense->kind, threat.zone) *
+          share = std::max(share, static_cast<double>(threat.answered[one.to.at()]) *
                                       std::clamp((end - begin) / whole, 0.0, 1.0));
         }
         points[first + i] += threat.worth * share;
@@ -264,7 +245,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
     threat.from = {frame.x, 0, frame.z};
     threat.line = frame.to_outer(strike.landing) - threat.from;
     threat.length = std::max(1e-3f, std::hypot(threat.line.x, threat.line.z));
-    threat.zone = strike.strike.zone;
+    threat.answered = setup_->protection->against(other.flight.table->first_strike + i);
     threat.worth = aspect.own->weights.caution *
                    hit_points(their.weights, strike.strike.kind,
                               their.clean_damage[other.flight.table->first_strike + i], false);

@@ -15,6 +15,7 @@
 #include "planner/habits.h"
 #include "planner/impact_memo.h"
 #include "planner/plan.h"
+#include "planner/protection.h"
 #include "planner/search.h"
 #include "planner/search_cost.h"
 
@@ -93,6 +94,7 @@ struct DuelSetup {
   double learning = 0;               // Style::learning of side 0
   std::optional<FeintAnswer> feint;  // one that would take side 1 in
   PlanSettings settings;
+  const Protection* protection = nullptr;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
   std::vector<Fallen> fallen;  // those of them that lie, or will when their fall is over

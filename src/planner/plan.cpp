@@ -45,6 +45,7 @@ struct Planner::Inside {
   std::uint64_t seed;
   std::vector<std::unique_ptr<MotionTables>> tables;  // one per different body
   std::vector<int> body_of;                           // contender -> tables
+  std::optional<Protection> protection;  // of the first body: the actions are the same for all
   std::unique_ptr<ImpactMemo> memo;
   // clean[attacker body][victim body][strike of the attacker's tables], thousandths.
   std::vector<std::vector<std::vector<std::int32_t>>> clean;
@@ -106,6 +107,7 @@ Planner::Inside::Inside(const MotionLibrary& of, std::vector<Contender> who, Pla
     body_of.push_back(static_cast<int>(same - tables.begin()));
     if (same == tables.end()) tables.push_back(std::make_unique<MotionTables>(own, one.body));
   }
+  if (!tables.empty()) protection.emplace(*tables.front());
   std::vector<const MotionTables*> pointers;
   for (const auto& one : tables) pointers.push_back(one.get());
   memo = std::make_unique<ImpactMemo>(pointers, MemoSteps{}, std::move(store));
@@ -272,6 +274,7 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
   if (setup.learning > 0) setup.habits = &habits[opponent.at()];
   setup.factors = leaf_factors(setup.side[0].weights);
   setup.settings = settings;
+  setup.protection = &*protection;
   setup.memo = memo.get();
   setup.cost = cost;
   for (std::size_t i = 0; i < state.fighters.size(); ++i) {

@@ -28,6 +28,8 @@ class DuelFixture : public SyntheticFixture {
       side.launch.assign(library().actions().size(), 0);
       side.clean_damage = clean_damage_;
     }
+    static const Protection kProtection(tables());
+    setup_.protection = &kProtection;
     setup_.memo = &memo();
     set_style(style_);
   }

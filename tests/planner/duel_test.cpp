@@ -620,14 +620,16 @@ TEST_F(DuelTest, CandidatesAreAsManyAtEveryDepthAndOfEveryKind) {
   }
 }
 
-// What ducks under a blow to the body helps more against it than what slips one to the head.
-TEST_F(DuelTest, DefensesAreWeighedByWhereTheBlowGoes) {
+// What answers a blow in sparring is offered against it: a duck against a jab, a slip to the side
+// against a cross to the body, which comes in as low as a duck goes.
+TEST_F(DuelTest, DefensesAreWeighedByWhatTheyAnswerInSparring) {
   Style style;
-  style.candidates = 5;  // an attack, two steps and two defenses
+  style.candidates = 5;    // an attack, two steps and two defenses
+  style.late_sight_s = 0;  // all of them
   set_style(style);
   const auto offered = [&](const char* attack) {
     FightState state = facing(0.95f);
-    state.fighters[1].launch = launch(attack, -31, state.fighters[1].launch.placement);
+    state.fighters[1].launch = launch(attack, -4, state.fighters[1].launch.placement);
     Duel game(setup_, 240);
     std::vector<DuelMove> moves;
     game.moves(Duel::root(setup_, state), moves);
@@ -635,8 +637,10 @@ TEST_F(DuelTest, DefensesAreWeighedByWhereTheBlowGoes) {
     for (const DuelMove& move : moves) names.insert(library().action(move.action).name);
     return names;
   };
-  EXPECT_EQ(offered("front_kick").count("duck"), 1u);
-  EXPECT_EQ(offered("front_kick").count("slip_right"), 0u);
+  EXPECT_EQ(offered("jab").count("duck"), 1u);
+  EXPECT_EQ(offered("jab").count("slip_right"), 0u);
+  EXPECT_EQ(offered("body_cross").count("slip_right"), 1u);
+  EXPECT_EQ(offered("body_cross").count("duck"), 0u);
 }
 
 // Who stands where it wants to stand has steps that keep it there, who stands too far away one that

@@ -1,4 +1,4 @@
-#include "scene/sparring.h"
+#include "planner/sparring.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-#include "scene/sparring.h"
+#include "planner/sparring.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <thread>
 
@@ -45,8 +46,11 @@ class AttackSparring {
  private:
   std::vector<ActionId> defenses() const {
     std::vector<ActionId> found;
-    for (const ActionId id : defender_.library().launchable())
-      if (defender_.library().action(id).defense) found.push_back(id);
+    const Stance stance = defender_.library().action(idle_).stance;
+    for (const ActionId id : defender_.library().launchable()) {
+      const Action& action = defender_.library().action(id);
+      if (action.defense && action.stance == stance) found.push_back(id);
+    }
     return found;
   }
 
@@ -168,10 +172,15 @@ class AttackSparring {
   const SparringSettings& settings_;
 };
 
-std::vector<ActionId> idles_of(const MotionLibrary& library) {
+std::vector<ActionId> idles_of(const MotionLibrary& library, std::size_t most_of_a_stance) {
   std::vector<ActionId> idles;
-  for (const ActionId id : library.launchable())
-    if (library.action(id).kind == Kind::idle) idles.push_back(id);
+  std::map<Stance, std::size_t> found;
+  for (const ActionId id : library.launchable()) {
+    const Action& action = library.action(id);
+    if (action.kind == Kind::idle && ++found[action.stance] <= most_of_a_stance) {
+      idles.push_back(id);
+    }
+  }
   return idles;
 }
 
@@ -180,7 +189,7 @@ std::vector<ActionId> idles_of(const MotionLibrary& library) {
 Sparring spar(const MotionTables& attacker, const MotionTables& defender,
               const SparringSettings& settings) {
   Sparring sparring;
-  const std::vector<ActionId> idles = idles_of(defender.library());
+  const std::vector<ActionId> idles = idles_of(defender.library(), settings.idles);
   std::vector<ActionId> attacks;
   for (const ActionId id : attacker.library().launchable())
     if (attacker.library().action(id).attacks()) attacks.push_back(id);
