@@ -120,7 +120,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
 // poses, one a tick from the contact on; empty: track `input.continued`). Returns `ticks` world
 // poses, the first one tick after the contact. A knockdown falls with bracing arms and comes to
 // rest; where there are `lying` poses, from which get-ups start, it settles toward the nearest, and
-// up to 2 s more are returned while it is far from all of them. A knockout falls limp.
+// up to 3 s more are returned while it is far from all of them. A knockout falls limp.
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks, std::span<const Pose> lying = {});
