@@ -8,9 +8,9 @@
 #include "cli/commands.h"
 #include "cli/library_page.h"
 #include "motion/strike_fit.h"
+#include "planner/sparring.h"
 #include "scene/fitted_library.h"
 #include "scene/library_check.h"
-#include "planner/sparring.h"
 
 namespace ringcraft {
 

@@ -9,10 +9,10 @@
 #include "capture/person.h"
 #include "cli/commands.h"
 #include "motion/strike_fit.h"
+#include "planner/sparring.h"
 #include "scene/fitted_library.h"
 #include "scene/pair_sparring.h"
 #include "scene/scene_file.h"
-#include "planner/sparring.h"
 #include "scene/sparring_files.h"
 
 namespace ringcraft {

@@ -10,8 +10,8 @@ namespace ringcraft {
 
 namespace {
 
-constexpr float kUnsure =
-    2;  // exchanges that failed, added to those of each timing: few say little
+// Exchanges that failed, added to those of each timing: a few say little.
+constexpr float kUnsure = 2;
 
 auto sort_of(const StrikeTable& blow) {
   return std::tuple(blow.strike.kind, blow.strike.zone, blow.main);
@@ -39,13 +39,25 @@ Protection::Protection(const MotionTables& tables) : actions_(tables.library().a
   }
   const OffenseDefenseTable table(records);
   shares_.assign(sorts.size() * actions_, 0);
+  std::vector<float> sum(actions_);
+  std::size_t landed = 0;
   for (std::size_t sort = 0; sort < sorts.size(); ++sort) {
-    for (const DefenseEntry& entry : table.against(ActionId(sort))) {
+    const std::span<const DefenseEntry> entries = table.against(ActionId(sort));
+    landed += entries.empty() ? 0 : 1;
+    for (const DefenseEntry& entry : entries) {
       float& best = shares_[sort * actions_ + entry.defense.at()];
       for (const ExchangeTiming& timing : timings(entry)) {
         best = std::max(best, static_cast<float>(timing.worked) /
                                   (static_cast<float>(timing.launched) + kUnsure));
       }
+      sum[entry.defense.at()] += best;
+    }
+  }
+  if (landed == 0) return;
+  for (std::size_t sort = 0; sort < sorts.size(); ++sort) {
+    if (!table.against(ActionId(sort)).empty()) continue;
+    for (std::size_t i = 0; i < actions_; ++i) {
+      shares_[sort * actions_ + i] = sum[i] / static_cast<float>(landed);
     }
   }
 }

@@ -16,8 +16,9 @@ class Protection {
   explicit Protection(const MotionTables& tables);
 
   // By number of the action: the share, 0 .. 1, of the blows of this one's kind, zone and limb that
-  // a defense answers at its best timing. 0 where it is none, or where no such blow lands.
-  // `strike`: its number among those of the library (ActionTable::first_strike).
+  // a defense answers at its best timing; 0 where it is none. Where no such blow lands on who only
+  // stands, the mean over the others. `strike`: its number among those of the library
+  // (ActionTable::first_strike).
   std::span<const float> against(std::size_t strike) const {
     return std::span(shares_).subspan(sort_[strike] * actions_, actions_);
   }

@@ -37,6 +37,20 @@ TEST_F(ProtectionTest, IsTheShareOfBlowsThatADefenseAnswersAtItsBestTiming) {
   EXPECT_GT(share("body_cross", "slip_right"), share("body_cross", "duck") + .2f);
 }
 
+// A kick that should meet the head and goes to the belly lands on nobody.
+TEST_F(ProtectionTest, IsTheMeanWhereNoSuchBlowLands) {
+  std::vector<Action> actions = library().actions();
+  const std::size_t kick = library().find("front_kick").at();
+  actions[kick].strikes.front().zone = TargetZone::head;
+  const MotionLibrary changed = library().with(actions);
+  const MotionTables tables(changed, make_body({}));
+  const Protection protection(tables);
+  const std::size_t duck = library().find("duck").at();
+  const float others = share("jab", "duck") + share("cross", "duck") + share("hook", "duck") +
+                       share("body_cross", "duck");
+  EXPECT_NEAR(protection.against(tables.at(ActionId(kick)).first_strike)[duck], others / 4, 1e-5f);
+}
+
 TEST_F(ProtectionTest, IsNothingOfWhatIsNoDefense) {
   EXPECT_EQ(share("jab", "idle"), 0);
   EXPECT_EQ(share("jab", "cross"), 0);
