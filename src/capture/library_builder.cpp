@@ -97,7 +97,7 @@ struct Collector {
     if (notes != nullptr) notes->push_back(std::move(text));
   }
   Result<void> add(Action action, const std::string& file, const std::string& place) {
-    const std::vector<std::string> wrong = faults(action.clip);
+    const std::vector<std::string> wrong = faults(action);
     if (!wrong.empty())
       return input_error(file, place, fmt::format("action {}: {}", action.name, wrong.front()),
                          "mend its source");
@@ -172,7 +172,7 @@ Result<void> add_cuts(const CaptureEntry& of, const Clip& clip, const Segmentati
   }
   for (const FoundAction& segment : not_listed(found.segments, listed)) {
     auto action = cut_out(segment.cut, of.manifest.place(of.pointer + "/segment"));
-    const bool fits = action && faults(action->clip).empty() && !out.names.contains(action->name);
+    const bool fits = action && faults(*action).empty() && !out.names.contains(action->name);
     out.note(fmt::format("{}: {} {:.2f}-{:.2f} s{}: {}", of.source, segment.cut.name,
                          segment.cut.begin, segment.cut.end, fits ? "" : " passed over",
                          action ? segment.evidence : to_string(action.error())));

@@ -73,7 +73,7 @@ std::string distinct(const std::set<std::string>& taken, const std::string& name
 }
 
 void add(Action action, const std::string& file, Collection& out) {
-  const std::vector<std::string> wrong = faults(action.clip);
+  const std::vector<std::string> wrong = faults(action);
   if (!wrong.empty()) {
     out.note(fmt::format("{}: {} passed over: {}", file, action.name, wrong.front()));
     return;

@@ -197,7 +197,7 @@ Result<Action> compile_once(const Document& document, const SheetAction& sheet) 
     s.active_end = ticks(strike.active_end);
     action.strikes.push_back(s);
   }
-  const std::vector<std::string> broken = faults(clip);
+  const std::vector<std::string> broken = faults(action);
   if (!broken.empty()) {
     return tl::unexpected(
         fault(document, sheet.pointer,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 namespace ringcraft {
 
 namespace {
@@ -107,6 +109,16 @@ std::optional<ResponseKind> response_kind_from_name(std::string_view name) {
 }
 std::optional<Lying> lying_from_name(std::string_view name) {
   return value_in<Lying>(kLyings, name);
+}
+
+std::vector<std::string> faults(const Action& action) {
+  // The planner keeps what it knows of a moment by its tick in 12 bits.
+  constexpr Tick kLongest = 30 * kTicksPerSecond;
+  if (action.length() > kLongest) {
+    return {fmt::format("it lasts {:.1f} s, longer than {} s", seconds(action.length()),
+                        kLongest / kTicksPerSecond)};
+  }
+  return faults(action.clip);
 }
 
 std::optional<Misplaced> misplaced(Kind kind, bool strikes, const std::optional<Response>& response,

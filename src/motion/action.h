@@ -105,6 +105,9 @@ struct Action {
   bool forced() const { return kind == Kind::response || kind == Kind::get_up; }
 };
 
+// Breaks of its clip's rules, as text, and whether it lasts more than 30 s; empty when it is good.
+std::vector<std::string> faults(const Action& action);
+
 // Whether a word of `leads_to` means that action.
 bool means(const std::string& word, const Action& action);
 // Whether `from` says that `to` may follow it.

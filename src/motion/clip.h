@@ -22,7 +22,7 @@ struct FootContacts {
 
 // Rules: 1 at least two frames; 2 frames, root and contacts have one length; 3 root[0] is the
 // identity placement; 4 every number is finite; 5 rotations are unit and neighbours share a
-// hemisphere; 6 an action's clip lasts 30 s at most.
+// hemisphere.
 struct Clip {
   std::vector<Pose> frames;  // action space, one a tick
   std::vector<Placement> root;

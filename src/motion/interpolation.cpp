@@ -316,7 +316,7 @@ std::vector<Family> families(const Skeleton& skeleton, const std::vector<Action>
 std::string worse_than(const Skeleton& skeleton, const Action& blend,
                        std::span<const Variant> variants, std::span<const float> weights,
                        const InterpolationSettings& settings) {
-  if (const auto wrong = faults(blend.clip); !wrong.empty()) return wrong.front();
+  if (const auto wrong = faults(blend); !wrong.empty()) return wrong.front();
   double skate = 0;
   float jump = 0, speed = 0;
   for (std::size_t i = 0; i < variants.size(); ++i) {

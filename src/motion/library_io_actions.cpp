@@ -169,7 +169,7 @@ std::string wrong_with(const Action& action) {
   if (action.name.empty()) return "an action without a name";
   if (clean_name(action.name, std::string::npos) != action.name)
     return "a name with control characters";
-  const std::vector<std::string> broken = faults(action.clip);
+  const std::vector<std::string> broken = faults(action);
   if (!broken.empty()) return broken.front();
   if (action.length() < kShortest && !action.connects) return "it is shorter than 0.1 s";
   if (action.strikes.size() > kMostStrikes) return "more strikes than an action may have";

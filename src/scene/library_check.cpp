@@ -169,12 +169,12 @@ namespace {
 
 void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
   for (const Action& action : library.actions()) {
-    for (const std::string& fault : faults(action.clip)) {
+    for (const std::string& fault : faults(action)) {
       check.faults.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
     }
   }
   for (const Action& action : library.switches()) {
-    for (const std::string& fault : faults(action.clip)) {
+    for (const std::string& fault : faults(action)) {
       check.faults.push_back(fmt::format("{}: broken clip: {}", action.name, fault));
     }
   }

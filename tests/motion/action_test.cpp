@@ -1,5 +1,6 @@
 #include "motion/action.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "motion/pose_near.h"
@@ -31,6 +32,18 @@ TEST(Action, EveryNameLeadsBackToItsValue) {
       ResponseKind::knockdown, [](ResponseKind k) { return name_of(k); }, response_kind_from_name);
   expect_names_lead_back(
       Lying::seat, [](Lying l) { return name_of(l); }, lying_from_name);
+}
+
+TEST(Action, ItsFaultsAreItsClipsAndMoreThanThirtySeconds) {
+  const Skeleton skeleton = canonical_skeleton();
+  Action idle = test::action_of("idle", Kind::idle, test::idle_clip(skeleton, 3600));
+  EXPECT_THAT(faults(idle), testing::IsEmpty());
+  idle.clip.root[0].x = 0.1f;
+  EXPECT_THAT(faults(idle), testing::ElementsAre(testing::StartsWith("rule 3")));
+  // A capture may be longer, as what is cut from it is not.
+  idle.clip = test::idle_clip(skeleton, 3601);
+  EXPECT_THAT(faults(idle.clip), testing::IsEmpty());
+  EXPECT_THAT(faults(idle), testing::ElementsAre("it lasts 30.0 s, longer than 30 s"));
 }
 
 TEST(Action, MirroringSwapsTheHandTheNameAndTheDirection) {
