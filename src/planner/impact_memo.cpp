@@ -65,7 +65,7 @@ std::uint64_t world_of(const MotionTables& tables, const MemoSteps& size) {
 
 ImpactMemo::Key ImpactMemo::key_of(const ImpulseSteps& steps) const {
   Packer p;
-  p.add(steps.moment.action.value, 13).add(steps.moment.age, 12);
+  p.add(steps.moment.action.value, 20).add(steps.moment.age, 12);
   p.add(static_cast<int>(steps.struck), 5).add(steps.blocked ? 1 : 0, 1);
   p.add(steps.azimuth, 5).add(steps.elevation, 3).add(steps.impulse, 10);
   p.add(steps.place.along, 2).add(steps.place.beside, 3);
@@ -245,7 +245,7 @@ ImpactAnswer ImpactMemo::turned(ImpactAnswer answer, float yaw) {
 KeptOwnMotion ImpactMemo::own_motion(const ImpulseSteps& steps) {
   return [this, steps](bool mirrored, const std::function<OwnMotion()>& run) {
     Packer p;
-    p.add(steps.moment.action.value, 13).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
+    p.add(steps.moment.action.value, 20).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
     const Key key{p.a(), 0, worlds_[static_cast<std::size_t>(steps.victim)]};
     return looked_up(own_motions_, &ImpactStore::own_motions, key, run);
   };

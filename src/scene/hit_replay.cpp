@@ -219,6 +219,13 @@ tl::unexpected<Error> event_fault(const std::string& file, std::size_t line, std
                      "give an events.jsonl as `ringcraft fight` wrote it");
 }
 
+bool is_event_type(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(EventType::getup); ++i) {
+    if (name == name_of(static_cast<EventType>(i))) return true;
+  }
+  return false;
+}
+
 struct HitLines {
   std::string version;                // of the program that wrote them, where the header says so
   std::optional<std::size_t> events;  // lines that follow the header, where it says so
@@ -253,6 +260,8 @@ Result<HitLines> hits_of(const std::string& file, std::string_view events) {
         if (!count->is_number_unsigned()) return event_fault(file, number, "'events' is no count");
         all.events = *count;
       }
+    } else if (const auto& name = type->get_ref<const std::string&>(); !is_event_type(name)) {
+      return event_fault(file, number, fmt::format("no event is a '{}'", clean_name(name, 24)));
     }
     if (*type != "hit" && *type != "block") continue;
     const auto text = event.find("replay");

@@ -160,6 +160,8 @@ TEST(HitReplay, HostileFilesAreErrorsWithTheLine) {
       "\xff\xfe\n",
       "{\"type\":\"hit\"}\n",
       header + "x\n",
+      header + header,
+      header + "{\"type\":\"hitt\"}\n",
       header + hit("7"),
       header + hit("null"),
       header + hit("\"\""),
