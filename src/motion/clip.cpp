@@ -17,13 +17,12 @@ const T& clamped(const std::vector<T>& values, Tick tick) {
   return values[static_cast<std::size_t>(std::clamp<Tick>(tick, 0, last))];
 }
 
-constexpr float kFarthest = 1000;  // m from a clip's start: no fight goes there
-
 bool finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 bool near_enough(Vec3 v) {
-  return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
+  return std::abs(v.x) <= kFarthestPlaced && std::abs(v.y) <= kFarthestPlaced &&
+         std::abs(v.z) <= kFarthestPlaced;
 }
 bool finite(Quat q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
@@ -57,13 +56,14 @@ std::vector<std::string> faults(const Clip& clip) {
     const Placement& root = clip.root[i];
     if (!finite(Vec3(root.x, root.yaw, root.z))) {
       found.push_back(fmt::format("rule 4: frame {}: root not finite", i));
-    } else if (!near_enough(root.position())) {
-      found.push_back(fmt::format("rule 4: frame {}: root farther than {} m", i, kFarthest));
+    } else if (!in_bounds(root)) {
+      found.push_back(fmt::format("rule 4: frame {}: root farther than {} m or {} turns", i,
+                                  kFarthestPlaced, kMostTurns));
     }
     if (!finite(pose.hips)) {
       found.push_back(fmt::format("rule 4: frame {}: hips not finite", i));
     } else if (!near_enough(pose.hips)) {
-      found.push_back(fmt::format("rule 4: frame {}: hips farther than {} m", i, kFarthest));
+      found.push_back(fmt::format("rule 4: frame {}: hips farther than {} m", i, kFarthestPlaced));
     }
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const Quat q = pose.rotation[j];

@@ -44,9 +44,8 @@ Alignment get_alignment(BytesIn& in) {
   return alignment;
 }
 
-bool finite(const Alignment& alignment) {
-  return std::isfinite(alignment.placement.x) && std::isfinite(alignment.placement.z) &&
-         std::isfinite(alignment.placement.yaw) && std::isfinite(alignment.distance);
+bool sound(const Alignment& alignment) {
+  return in_bounds(alignment.placement) && std::isfinite(alignment.distance);
 }
 
 std::string skeleton_section(const Skeleton& skeleton) {
@@ -196,7 +195,7 @@ class LibraryReader {
       for (std::size_t i = 0; i < count; ++i) {
         const ActionId to(in.get<std::int32_t>());
         const Alignment alignment = get_alignment(in);
-        if (!known(to) || !finite(alignment)) return "an edge leads nowhere";
+        if (!known(to) || !sound(alignment)) return "an edge leads nowhere";
         if (!may_follow(parts_.actions[from], parts_.actions[to.at()])) {
           return fmt::format("{} cannot follow {}", parts_.actions[to.at()].name,
                              parts_.actions[from].name);
@@ -251,7 +250,7 @@ class LibraryReader {
       t.to_clip = in.get<std::int32_t>();
       t.to = in.get<Tick>();
       t.alignment = get_alignment(in);
-      if (!inside(t.from_clip, t.from) || !inside(t.to_clip, t.to) || !finite(t.alignment)) {
+      if (!inside(t.from_clip, t.from) || !inside(t.to_clip, t.to) || !sound(t.alignment)) {
         return "a transition leads nowhere";
       }
       graph.transitions.push_back(t);

@@ -1,5 +1,7 @@
 #include "motion/placement.h"
 
+#include <cmath>
+
 namespace ringcraft {
 
 Placement operator*(const Placement& outer, const Placement& inner) {
@@ -14,6 +16,11 @@ Placement inverse(const Placement& placement) {
 
 Vec3 operator*(const Placement& placement, Vec3 point) {
   return yaw_rotation(placement.yaw) * point + placement.position();
+}
+
+bool in_bounds(const Placement& placement) {
+  return std::abs(placement.x) <= kFarthestPlaced && std::abs(placement.z) <= kFarthestPlaced &&
+         std::abs(placement.yaw) <= 2 * kPi * static_cast<float>(kMostTurns);
 }
 
 float bearing(const Placement& from, Vec3 point) {

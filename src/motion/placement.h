@@ -19,6 +19,11 @@ Placement operator*(const Placement& outer, const Placement& inner);
 Placement inverse(const Placement& placement);
 Vec3 operator*(const Placement& placement, Vec3 point);
 
+// What a file may say: no fight goes as far as that from where an action starts.
+inline constexpr float kFarthestPlaced = 1000;  // m
+inline constexpr int kMostTurns = 1000;         // of the body about its vertical
+bool in_bounds(const Placement& placement);     // false where a number is not finite
+
 // Bearing of `point` off the way `from` faces, rad in (-pi, pi]; positive to the own left.
 float bearing(const Placement& from, Vec3 point);
 

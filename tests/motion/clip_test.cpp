@@ -45,6 +45,9 @@ TEST(Clip, EveryBrokenRuleIsFoundByItsNumber) {
   clip.root[7].x = 3e38f;
   EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7: root farther than 1000 m")));
   clip = good;
+  clip.root[7].yaw = -3e38f;
+  EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7: root farther than 1000 m")));
+  clip = good;
   clip.frames[7].hips.y = 1e30f;
   EXPECT_THAT(faults(clip), ElementsAre(StartsWith("rule 4: frame 7: hips farther than 1000 m")));
   clip = good;
