@@ -1,6 +1,6 @@
 #pragma once
-// Pace: how fast a launch runs through its clip. The tree knows that of what is in flight and plans
-// the rest with the clips as they are; errors of execution and fatigue are the fight's.
+// Pace: how fast a launch runs through its clip. The tree knows that of what is in flight, and what
+// fatigue will make of the rest; errors of execution are the fight's.
 
 #include "motion/action.h"
 

@@ -31,6 +31,15 @@ std::int32_t fault_of(float depth) {
   return 1 + static_cast<std::int32_t>(depth * 1000);
 }
 
+// What it does at `tick`. A pace of its own changes when a body is where, and so how fast it goes
+// there, not what it offers to a blow.
+BodyMoment moment_of(const InFlight& flight, Tick tick) {
+  const ActionTable& table = *flight.table;
+  const Tick age = table.clamped(flight.age(tick));
+  if (table.clip == nullptr) return {&table, age};
+  return {table.clip, table.clip->clamped(table.clip_age(age))};
+}
+
 }  // namespace
 
 void Duel::find_windows(const Node& node, Tick end) {
@@ -78,8 +87,9 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
                       ? side(window.attacker).body
                       : setup_->others[static_cast<std::size_t>(window.attacker - 2)].body;
   blow.victim = side(window.victim).body;
-  blow.attack = {flight.table, flight.table->clamped(flight.age(met.tick))};
-  blow.struck = {struck.table, struck.table->clamped(struck.age(met.tick))};
+  blow.attack = moment_of(flight, met.tick);
+  blow.struck = moment_of(struck, met.tick);
+  blow.tone = struck.table->in_flight() ? struck.table->tone : side(window.victim).tone;
   blow.kind = flight.table->strikes[window.strike].strike.kind;
   blow.contact = met.contact;
   const Frame seen = relative(struck.frame_at(met.tick), flight.frame_at(met.tick));

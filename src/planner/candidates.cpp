@@ -260,13 +260,14 @@ void Duel::score_candidates(const Node& node, int who) {
   const Duelist& self = node.side[static_cast<std::size_t>(who)];
   const SideSetup& own = side(who);
   Aspect aspect = aspect_of(node, who);
-  scored_.resize(self.flight.table->next.size());
+  const Followers& follow = own.launches().after(*self.flight.table);
+  scored_.resize(follow.next.size());
   std::size_t count = 0;
   std::array<std::size_t, kChoices> choices{};  // how many of each
   float least_turned = -2, least_out = std::numeric_limits<float>::max();
   Scored spare{}, held{}, far{};
-  const std::span<const NextAction> all = self.flight.table->next;
-  const std::span<const NextLanes> lanes = self.flight.table->next_lanes;
+  const std::span<const NextAction> all = follow.next;
+  const std::span<const NextLanes> lanes = follow.next_lanes;
   then_x_.resize(lanes.size()), then_z_.resize(lanes.size());
   for (std::size_t block = 0; block < lanes.size(); ++block) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -44,6 +44,14 @@ std::optional<std::size_t> limb_of(Part part) {
   }
 }
 
+float pace_at(double fatigue) {
+  return static_cast<float>(1 - (1 - kSlowest) * fatigue);
+}
+
+float tone_at(double fatigue) {
+  return static_cast<float>(1 - (1 - kSlackest) * fatigue);
+}
+
 double Condition::fatigue() const {
   return std::clamp(spent_J_ / kReserve_J, 0.0, 1.0);
 }
@@ -67,14 +75,6 @@ void Condition::struck(const Style& style, Part part, double damage) {
   if (const auto limb = limb_of(part)) {
     injury_[*limb] = std::min(1.0, injury_[*limb] + style.injury * damage / kDisabling);
   }
-}
-
-float Condition::pace() const {
-  return static_cast<float>(1 - (1 - kSlowest) * fatigue());
-}
-
-float Condition::tone() const {
-  return static_cast<float>(1 - (1 - kSlackest) * fatigue());
 }
 
 double kinetic_work(const BodyModel& body, const std::vector<Pose>& poses) {

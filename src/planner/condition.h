@@ -17,6 +17,11 @@ inline constexpr std::size_t kLimbs = 4;  // left arm, right arm, left leg, righ
 // Index of the limb that a part belongs to, or nothing for the trunk and the head.
 std::optional<std::size_t> limb_of(Part part);
 
+// The speed at which actions are shown at a fatigue of 0 .. 1, share of the clip's; 0.85 at worst.
+float pace_at(double fatigue);
+// The tone of the muscles in an impulse step then, share of full; 0.65 at worst.
+float tone_at(double fatigue);
+
 // Constant inside a search; the fight changes it between decisions.
 class Condition {
  public:
@@ -34,10 +39,8 @@ class Condition {
   // A hit or block: `damage` in points.
   void struck(const Style& style, Part part, double damage);
 
-  // The speed at which a tired fighter's actions are shown, share of the clip's; 0.85 at worst.
-  float pace() const;
-  // The tone of its muscles in an impulse step, share of full; 0.65 at worst.
-  float tone() const;
+  float pace() const { return pace_at(fatigue()); }
+  float tone() const { return tone_at(fatigue()); }
 
  private:
   double spent_J_ = 0;

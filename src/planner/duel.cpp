@@ -57,7 +57,8 @@ Duel::Duel(const DuelSetup& setup, Tick horizon) : setup_(&setup), horizon_(hori
       range.most = std::max(range.most, points / 1000.0);
     }
     range.most += reach_bonus(own.weights);
-    range.least -= own.weights.control * own.weights.duration * seconds(own.tables->longest_lead());
+    range.least -=
+        own.weights.control * own.weights.duration * seconds(own.launches().longest_lead());
   }
 }
 
@@ -137,7 +138,7 @@ ValueRange Duel::range(const Node& node) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const SideSetup& own = setup_->side[i];
     const InFlight& flight = node.side[i].flight;
-    if (flight.launch.end + own.tables->lull() < horizon_ || may_strike(flight, node.now)) {
+    if (flight.launch.end + own.launches().lull() < horizon_ || may_strike(flight, node.now)) {
       return {};
     }
     const int launches = flight.launch.end < horizon_ ? 1 : 0;
@@ -206,11 +207,12 @@ void Duel::launch_aimed(Node& node, int who, const NextAction& next) const {
   Launch launch;
   launch.action = next.to;
   launch.start = node.now;
-  launch.end = node.now + what.length();
+  launch.end = node.now + next.length;
+  launch.pace = next.table->pace;
   launch.placement = placement;
   launch.aim = aim_at(what, placement, opponent.flight.root_at(node.now).position(),
                       own.tables->body().scale, what.attacks() ? kMostAttackAim : kMostAim);
-  self.flight = InFlight(*own.tables, launch);
+  self.flight = InFlight(own.launches(), launch);
   self.balance = 0;
 }
 
@@ -218,12 +220,12 @@ void Duel::launch_aimed(Node& node, int who, const NextAction& next) const {
 void Duel::launch_chosen(Node& node, const Move& move) const {
   const SideSetup& own = side(move.side);
   const std::vector<ActionId>& path = move.next->path;
-  const ActionTable& from = *node.side[move.side].flight.table;
+  const Followers& follow = own.launches().after(*node.side[move.side].flight.table);
   const double bonus = reach_bonus(own.weights);
   const double reach = bonus > 0 && !move.next->strikes.empty()
                            ? static_cast<double>(reach_of(node, move.side, *move.next))
                            : 0.0;
-  launch_aimed(node, move.side, path.empty() ? *move.next : *from.find_next(path.front()));
+  launch_aimed(node, move.side, path.empty() ? *move.next : *follow.find(path.front()));
   auto& queue = node.side[move.side].queue;
   for (std::size_t i = 0; i < path.size(); ++i) {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
@@ -278,7 +280,8 @@ Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   if (move.forced && self.queue[0].valid()) {
     std::rotate(self.queue.begin(), self.queue.begin() + 1, self.queue.end());
     self.queue.back() = {};
-    launch_aimed(child.node, move.side, *self.flight.table->find_next(move.action));
+    const Followers& follow = side(move.side).launches().after(*self.flight.table);
+    launch_aimed(child.node, move.side, *follow.find(move.action));
   } else if (move.forced) {
     launch_forced(child.node, move.side, move.action);
   } else {

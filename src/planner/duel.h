@@ -68,7 +68,9 @@ struct Bystander {
 // What a search needs to know of one side. Constant inside a search.
 struct SideSetup {
   const MotionTables* tables = nullptr;
-  int body = 0;  // index into the memo's tables
+  const MotionTables* paced = nullptr;  // of what it launches, at its pace; null: at the clips'
+  float tone = 1.0f;                    // of its muscles where the motion in flight says nothing
+  int body = 0;                         // index into the memo's tables
   FighterId id;
   const ActionTable* in_flight = nullptr;  // of its launch as it is shown; null: its clip's
   const Style* style = nullptr;
@@ -76,6 +78,8 @@ struct SideSetup {
   std::vector<std::int32_t> launch;  // F_control of each action, thousandths
   // Of each strike of the tables (ActionTable::first_strike) on the other side.
   std::span<const std::int32_t> clean_damage;
+
+  const MotionTables& launches() const { return paced != nullptr ? *paced : *tables; }
 };
 
 // What side 1 is expected to do about a feint that side 0 begins at the root, where it must act

@@ -68,7 +68,7 @@ ImpactMemo::Key ImpactMemo::key_of(const ImpulseSteps& steps) const {
   p.add(steps.moment.action.value, 20).add(steps.moment.age, 12);
   p.add(static_cast<int>(steps.struck), 5).add(steps.blocked ? 1 : 0, 1);
   p.add(steps.azimuth, 5).add(steps.elevation, 3).add(steps.impulse, 10);
-  p.add(steps.place.along, 2).add(steps.place.beside, 3);
+  p.add(steps.place.along, 2).add(steps.place.beside, 3).add(steps.tone, 7);
   return {p.a(), p.b(), worlds_[static_cast<std::size_t>(steps.victim)]};
 }
 
@@ -151,6 +151,7 @@ ImpactMemo::ImpulseSteps ImpactMemo::steps_of(const LandedBlow& blow, Vec3 impul
   steps.place = place_of(blow.struck.part(steps.struck), impulse, blow.contact.point);
   steps.azimuth = turn_step(yaw_of(impulse) - blow.struck.root().yaw, size_.azimuths);
   steps.elevation = elevation_step(impulse);
+  steps.tone = static_cast<int>(std::lround(100 * blow.tone));
   const float size = glm::length(impulse);
   if (size >= kTouchImpulse) steps.impulse = step_of(size, size_.impulse, 1000);
   return steps;
@@ -168,10 +169,11 @@ ImpactAnswer ImpactMemo::answer_of(const ImpulseSteps& steps, const KeptOwnMotio
   blow.point = point_of(struck.part(steps.struck), line, steps.place);
   blow.impulse = line * (static_cast<float>(steps.impulse) * size_.impulse);
   blow.blocked = steps.blocked;
-  return turned(stepped(victim, struck, blow, own), -facing);
+  const float tone = static_cast<float>(steps.tone) / 100;
+  return turned(stepped(victim, struck, tone, blow, own), -facing);
 }
 
-ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& struck,
+ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& struck, float tone,
                                  const Blow& blow, const KeptOwnMotion& own) {
   const ActionTable& action = *struck.table;
   ImpactAnswer answer;
@@ -185,7 +187,7 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   }
   input.continued = continued;
   input.blow = blow;
-  input.tone = action.tone;
+  input.tone = tone;
   input.contacts = action.action->clip.contacts_at(action.clip_age(struck.age));
   // The muscles take up a touch, whatever the body is doing: no impulse step is needed to know.
   const bool touch = answer.impulse < kTouchImpulse;
@@ -203,8 +205,8 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
 
 ImpactAnswer ImpactMemo::in_flight_answer(const LandedBlow& landed, const Blow& blow,
                                           const KeptOwnMotion& own) const {
-  ImpactAnswer answer =
-      stepped(*bodies_[static_cast<std::size_t>(landed.victim)], landed.struck, blow, own);
+  ImpactAnswer answer = stepped(*bodies_[static_cast<std::size_t>(landed.victim)], landed.struck,
+                                landed.tone, blow, own);
   answer.damage = damage_of(blow, answer.outcome);
   return answer;
 }
@@ -246,6 +248,7 @@ KeptOwnMotion ImpactMemo::own_motion(const ImpulseSteps& steps) {
   return [this, steps](bool mirrored, const std::function<OwnMotion()>& run) {
     Packer p;
     p.add(steps.moment.action.value, 20).add(steps.moment.age, 12).add(mirrored ? 1 : 0, 1);
+    p.add(steps.tone, 7);
     const Key key{p.a(), 0, worlds_[static_cast<std::size_t>(steps.victim)]};
     return looked_up(own_motions_, &ImpactStore::own_motions, key, run);
   };

@@ -44,6 +44,7 @@ struct LandedBlow {
   int attacker = 0, victim = 0;
   BodyMoment attack, struck;
   StrikeKind kind = StrikeKind::straight;
+  float tone = 1.0f;       // of the victim's muscles, 0 limp .. 1 full
   Contact contact;         // in the victim's action space
   float attacker_yaw = 0;  // of the attacker's action space, seen from the victim's, rad
   Vec3 striking{};         // contact.point in the attacker's action space
@@ -101,6 +102,7 @@ class ImpactMemo {
     bool blocked;
     int azimuth;  // off the facing of the struck body's root
     int elevation, impulse;
+    int tone;  // hundredths
     BlowPlace place;
   };
 
@@ -113,7 +115,7 @@ class ImpactMemo {
   // Seen from the struck body's root. `own`: what the struck body does without the blow, kept.
   ImpactAnswer answer_of(const ImpulseSteps& steps, const KeptOwnMotion& own) const;
   // The impulse step of a blow, without its damage; in the struck body's action space.
-  static ImpactAnswer stepped(const MotionTables& victim, const BodyMoment& struck,
+  static ImpactAnswer stepped(const MotionTables& victim, const BodyMoment& struck, float tone,
                               const Blow& blow, const KeptOwnMotion& own);
   // The answer to a blow on a motion in flight: nothing is quantised.
   ImpactAnswer in_flight_answer(const LandedBlow& landed, const Blow& blow,

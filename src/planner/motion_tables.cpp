@@ -126,6 +126,52 @@ ActionTable action_table(const Action& action, const BodyModel& body, std::vecto
   }
   table.end = Frame(table.root.back());
   for (const Strike& strike : action.strikes) table.strikes.push_back(strike_table(strike, table));
+  table.defense = action.defense;
+  return table;
+}
+
+// What begins and ends with the clip does so by ticks since the launch.
+void set_times(ActionTable& table) {
+  const auto reached = [&](Tick age) {
+    return static_cast<Tick>(std::lower_bound(table.clip_ages.begin(), table.clip_ages.end(), age) -
+                             table.clip_ages.begin());
+  };
+  for (StrikeTable& one : table.strikes) {
+    Strike strike = one.strike;
+    strike.active_begin = reached(strike.active_begin);
+    strike.active_end = reached(strike.active_end);
+    one = strike_table(strike, table);
+  }
+  if (table.defense) {
+    table.defense->begin = reached(table.defense->begin);
+    table.defense->end = reached(table.defense->end);
+  }
+}
+
+// The table of an action that runs at `factor` of its clip's speed, in between the clip's frames.
+ActionTable paced_table(const ActionTable& clip, const BodyModel& body, float factor) {
+  const Action& action = *clip.action;
+  ActionTable table;
+  table.id = clip.id;
+  table.action = clip.action;
+  table.clip = &clip;
+  table.pace = Pace(action, factor);
+  table.length = table.pace.reached(clip.length);
+  table.after = clip.after;
+  table.first_strike = clip.first_strike;
+  table.strikes = clip.strikes;
+  table.defense = clip.defense;
+  for (Tick tick = 0; tick <= table.length; ++tick) {
+    const float age = std::min(table.pace.age(tick), static_cast<float>(clip.length));
+    const auto frame = static_cast<Tick>(age);
+    const float into_next = age - static_cast<float>(frame);
+    table.clip_ages.push_back(static_cast<Tick>(std::lround(age)));
+    table.root.push_back(mix(clip.root_at(frame), clip.root_at(frame + 1), into_next));
+    table.pose.push_back(mix(clip.pose_at(frame), clip.pose_at(frame + 1), into_next));
+    set_frame(table, static_cast<std::size_t>(tick), body, table.pose.back());
+  }
+  table.end = Frame(table.root.back());
+  set_times(table);
   return table;
 }
 
@@ -248,7 +294,7 @@ StrikeAim aim_of(const StrikeTable& strike) {
   return {strike.landing.z, strike.landing.x, strike.landing_tick, strike.strike.kind};
 }
 
-const NextAction* ActionTable::find_next(ActionId to) const {
+const NextAction* Followers::find(ActionId to) const {
   for (const NextAction& one : next) {
     if (one.to == to) return &one;
   }
@@ -306,13 +352,17 @@ std::vector<NextLanes> lanes_of(std::span<const NextAction> next) {
   return blocks;
 }
 
+// Whether a fighter may choose it.
+bool chosen(const Action& action) {
+  return action.kind != Kind::response && action.kind != Kind::get_up;
+}
+
 }  // namespace
 
 MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     : library_(library), body_(body) {
   const std::size_t whole = library.actions().size();
   actions_.reserve(whole + library.responses().size() * kParts.size());
-  followers_.resize(whole);
   parts_.resize(whole);
   for (const Action& action : library.actions()) {
     std::vector<Pose> poses;
@@ -321,10 +371,10 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     actions_.push_back(action_table(action, body_, std::move(poses)));
     ActionTable& table = actions_.back();
     table.id = ActionId(actions_.size() - 1);
+    table.after = table.id.at();
     table.first_strike = strikes_.size();
-    for (const StrikeTable& one : table.strikes) {
-      strikes_.push_back(aim_of(one));
-    }
+    for (const StrikeTable& one : table.strikes) strikes_.push_back(aim_of(one));
+    shown_.push_back(&table);
   }
   for (std::size_t i = 0; i < whole; ++i) {
     ActionTable& table = actions_[i];
@@ -332,20 +382,8 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
       table.get_up =
           choose_get_up(library, body_.skeleton, table.pose.back(), table.action->stance);
     }
-    for (const ActionId to : library.launchable()) {
-      if (auto next = next_action(ActionId(i), to)) followers_[i].next.push_back(std::move(*next));
-    }
-    for (const Edge& edge : library.machine().edges(ActionId(i))) {
-      if (!library.action(edge.to).connects) continue;
-      followers_[i].over.push_back(*next_action(ActionId(i), edge.to));
-    }
-    std::stable_sort(followers_[i].next.begin(), followers_[i].next.end(),
-                     [](const NextAction& a, const NextAction& b) { return a.choice < b.choice; });
-    followers_[i].next_lanes = lanes_of(followers_[i].next);
-    table.next = followers_[i].next;
-    table.next_lanes = followers_[i].next_lanes;
-    table.over = followers_[i].over;
   }
+  find_followers();
   for (const ActionId response : library.responses()) {
     const ResponseKind kind = library.action(response).response->kind;
     if (kind == ResponseKind::knockdown) continue;
@@ -354,6 +392,37 @@ MotionTables::MotionTables(const MotionLibrary& library, const BodyModel& body)
     add_parts(response);
   }
   find_lull();
+}
+
+MotionTables::MotionTables(const MotionTables& clips, float pace)
+    : library_(clips.library_), body_(clips.body_), shown_(clips.shown_), parts_(clips.parts_) {
+  actions_.reserve(library_.actions().size());
+  for (std::size_t i = 0; i < library_.actions().size(); ++i) {
+    if (chosen(library_.actions()[i])) {
+      actions_.push_back(paced_table(clips.at(ActionId(i)), body_, pace));
+      shown_[i] = &actions_.back();
+    }
+    for (const StrikeTable& one : shown_[i]->strikes) strikes_.push_back(aim_of(one));
+  }
+  find_followers();
+  find_lull();
+}
+
+void MotionTables::find_followers() {
+  followers_.resize(library_.actions().size());
+  for (std::size_t i = 0; i < followers_.size(); ++i) {
+    Followers& own = followers_[i];
+    for (const ActionId to : library_.launchable()) {
+      if (auto next = next_action(ActionId(i), to)) own.next.push_back(std::move(*next));
+    }
+    for (const Edge& edge : library_.machine().edges(ActionId(i))) {
+      if (!library_.action(edge.to).connects) continue;
+      own.over.push_back(*next_action(ActionId(i), edge.to));
+    }
+    std::stable_sort(own.next.begin(), own.next.end(),
+                     [](const NextAction& a, const NextAction& b) { return a.choice < b.choice; });
+    own.next_lanes = lanes_of(own.next);
+  }
 }
 
 void MotionTables::find_lull() {
@@ -390,10 +459,9 @@ void MotionTables::add_parts(ActionId action) {
     part.id = ActionId(actions_.size());
     for (Placement& root : part.root) root = mix(Placement{}, root, share);
     part.end = Frame(part.root.back());
-    part.next = whole.next;
-    part.next_lanes = whole.next_lanes;
-    part.over = whole.over;
+    part.after = whole.after;
     actions_.push_back(std::move(part));
+    shown_.push_back(&actions_.back());
   }
 }
 
@@ -401,7 +469,7 @@ const ActionTable& MotionTables::at(ActionId action, float share) const {
   const std::size_t first = parts_[action.at()];
   const auto step = static_cast<std::size_t>(
       std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(kParts.size())));
-  return first == 0 || step >= kParts.size() ? actions_[action.at()] : actions_[first + step];
+  return *shown_[first == 0 || step >= kParts.size() ? action.at() : first + step];
 }
 
 ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
@@ -432,17 +500,7 @@ ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
     table.pose[at] = placed(motion.poses[i], inverse(flight.frame_at(tick).placement()));
     set_frame(table, at, body_, table.pose[at]);
   }
-  // A strike begins and ends where the clip does.
-  const auto reached = [&](Tick age) {
-    return static_cast<Tick>(std::lower_bound(table.clip_ages.begin(), table.clip_ages.end(), age) -
-                             table.clip_ages.begin());
-  };
-  for (StrikeTable& one : table.strikes) {
-    Strike strike = one.strike;
-    strike.active_begin = reached(strike.active_begin);
-    strike.active_end = reached(strike.active_end);
-    one = strike_table(strike, table);
-  }
+  set_times(table);
   return table;
 }
 
@@ -451,16 +509,16 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
   const StateMachine& machine = library_.machine();
   const Path* path = machine.path(from, to);
   if (path == nullptr || path->via.size() > kLongestPath) return std::nullopt;
-  const ActionTable& table = actions_[to.at()];
+  const ActionTable& table = at(to);
   NextAction next;
   next.to = to;
   // A feint stands among the attacks: as a step it would take a real one's place in every list.
   next.choice = table.action->feint ? Choice::attack : choice_of(table.action->kind);
   next.path = path->via;
-  next.lead = path->ticks;
+  for (const ActionId over : path->via) next.lead += at(over).length;
   next.length = table.length;
   next.root = table.root.data();
-  next.defense = table.action->defense ? &*table.action->defense : nullptr;
+  next.defense = table.defense ? &*table.defense : nullptr;
   next.strikes = std::span(strikes_).subspan(table.first_strike, table.strikes.size());
   next.first_strike = table.first_strike;
   next.end = table.end;
@@ -469,7 +527,7 @@ std::optional<NextAction> MotionTables::next_action(ActionId from, ActionId to) 
     return Frame(scaled(machine.edge(first, second)->alignment.placement, body_.scale));
   };
   for (const ActionId over : path->via) {
-    next.alignment = next.alignment * edge(from, over) * actions_[over.at()].end;
+    next.alignment = next.alignment * edge(from, over) * at(over).end;
     from = over;
   }
   next.alignment = next.alignment * edge(from, to);

@@ -80,7 +80,7 @@ struct NextAction {
   std::size_t first_strike = 0;        // ActionTable::first_strike
   std::span<const StrikeAim> strikes;  // of `to`
   const Placement* root = nullptr;     // of `to`, one a tick
-  const Defense* defense = nullptr;    // of `to`
+  const Defense* defense = nullptr;    // of `to`: ActionTable::defense
   Frame alignment;  // of `to` relative to where the last action's root ends; scaled to the body
   Frame end;        // of `to`: ActionTable::end
   const ActionTable* table = nullptr;  // of `to`
@@ -121,12 +121,23 @@ struct PartSpheres {
 
 inline constexpr std::size_t kLongestPath = 3;  // longer ones are not offered
 
+// What may follow an action.
+struct Followers {
+  std::vector<NextAction> next;       // what a fighter may choose after it, by Choice
+  std::vector<NextLanes> next_lanes;  // of `next`
+  std::vector<NextAction> over;       // what follows it only on the way to something else
+
+  const NextAction* find(ActionId to) const;
+};
+
 struct ActionTable {
   ActionId id;  // of MotionTables::at; beyond the library's actions where it is a part of one
   const Action* action = nullptr;
   Tick length = 0;
   std::uint64_t motion = 0;                // its number where it is of a motion in flight, else 0
-  std::vector<Tick> clip_ages;             // of one: the clip's age, by ticks since the launch
+  const ActionTable* clip = nullptr;       // the clip's own, where it is of one at another pace
+  Pace pace;                               // of that
+  std::vector<Tick> clip_ages;             // of either: the clip's age, by ticks since the launch
   float tone = 1.0f;                       // of its muscles: less where a tired body is in flight
   std::vector<BodyCapsules> capsules;      // action space, one a tick
   std::vector<PartSpheres> spheres;        // around the capsules
@@ -136,16 +147,15 @@ struct ActionTable {
   std::vector<Sphere> bound;               // of the capsules
   std::vector<Pose> pose;                  // scaled to the body
   std::vector<StrikeTable> strikes;
-  std::size_t first_strike = 0;  // its number among all strikes of the library's actions
-  float extent = 0;              // largest distance of the body from the origin on the ground, m
-  Frame end;                     // root[length]
-  float way = 0;                 // of a response that stays up: way_of_clip (physics/partial.h), m
-  Strides strides;               // of the same
-  std::vector<float> way_left;   // of a response that stays up, one a tick, m
-  ActionId get_up;               // of a fall: what follows it; invalid for anything else
-  std::span<const NextAction> next;       // what a fighter may choose after it, by Choice
-  std::span<const NextLanes> next_lanes;  // of `next`
-  std::span<const NextAction> over;       // what follows it only on the way to something else
+  std::optional<Defense> defense;  // the action's, by ticks since the launch
+  std::size_t first_strike = 0;    // its number among all strikes of the library's actions
+  float extent = 0;                // largest distance of the body from the origin on the ground, m
+  Frame end;                       // root[length]
+  float way = 0;                // of a response that stays up: way_of_clip (physics/partial.h), m
+  Strides strides;              // of the same
+  std::vector<float> way_left;  // of a response that stays up, one a tick, m
+  ActionId get_up;              // of a fall: what follows it; invalid for anything else
+  std::size_t after = 0;        // of MotionTables::after
 
   Tick clamped(Tick age) const { return age < 0 ? 0 : age > length ? length : age; }
   bool in_flight() const { return motion != 0; }
@@ -157,14 +167,14 @@ struct ActionTable {
   const PartSpheres::Lanes& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
-  const NextAction* find_next(ActionId to) const;
 
  private:
   std::size_t at(Tick age) const { return static_cast<std::size_t>(clamped(age)); }
 };
 
 // What a launch in flight shows from now on: its clip with the blend of its seam, at its pace, or a
-// simulated response. The tree plays it as it is; of what is still to be launched it has the clip.
+// simulated response. The tree plays it as it is; of what is still to be launched it has the clip,
+// at the pace of who launches it.
 struct MotionInFlight {
   Launch launch;
   Tick from = 0;                // of the first pose
@@ -177,16 +187,21 @@ struct MotionInFlight {
 class MotionTables {
  public:
   MotionTables(const MotionLibrary& library, const BodyModel& body);
+  // The same where what is launched runs at a pace of its own (fight/pace.h). What a fighter does
+  // not choose, and the parts of it, are those of `clips`, which must outlive them.
+  MotionTables(const MotionTables& clips, float pace);
   MotionTables(const MotionTables&) = delete;  // its actions point at each other
   MotionTables& operator=(const MotionTables&) = delete;
 
   const MotionLibrary& library() const { return library_; }
   const BodyModel& body() const { return body_; }
-  const ActionTable& at(ActionId action) const { return actions_[action.at()]; }
+  const ActionTable& at(ActionId action) const { return *shown_[action.at()]; }
   // The table of as much of a response as `share` says, to the nearest of a few.
   const ActionTable& at(ActionId action, float share) const;
   // Of the library's actions and of parts of them.
-  std::size_t count() const { return actions_.size(); }
+  std::size_t count() const { return shown_.size(); }
+  // What may follow an action, a part of one or a motion in flight.
+  const Followers& after(const ActionTable& table) const { return followers_[table.after]; }
   // For so many ticks after its launch no choice strikes or ends.
   Tick lull() const { return lull_; }
   Tick longest_lead() const { return longest_lead_; }  // NextAction::lead
@@ -197,19 +212,16 @@ class MotionTables {
 
  private:
   std::optional<NextAction> next_action(ActionId from, ActionId to) const;
+  void add_parts(ActionId action);
+  void find_followers();
+  void find_lull();
 
   const MotionLibrary& library_;
   BodyModel body_;
-  void add_parts(ActionId action);
-  void find_lull();
-
   std::vector<ActionTable> actions_;
-  std::vector<StrikeAim> strikes_;  // of the library's actions, beside each other
-  struct Followers {
-    std::vector<NextAction> next, over;
-    std::vector<NextLanes> next_lanes;
-  };
-  std::vector<Followers> followers_;  // by action
+  std::vector<const ActionTable*> shown_;  // by number: of `actions_`, or the clips' tables
+  std::vector<StrikeAim> strikes_;         // of the library's actions, beside each other
+  std::vector<Followers> followers_;       // by action
   Tick lull_ = 0, longest_lead_ = 0;
   std::vector<std::size_t> parts_;  // by action: the first of its parts, 0 where it has none
 };

@@ -117,7 +117,8 @@ class Planner {
   // that is not told plays what is in flight as its clip is.
   void show(FighterId fighter, const MotionInFlight& motion);
 
-  // Fatigue and injuries as they are from now on.
+  // Fatigue and injuries as they are from now on. A search tells fatigue in fifths; the first time
+  // a body comes to one, its tables at that pace are made (some 20 ms).
   void set_condition(FighterId fighter, const Condition& condition);
   // Kinetic work of an action of that fighter's body, J; 0 where its style never tires.
   double work_of(FighterId fighter, ActionId action) const;

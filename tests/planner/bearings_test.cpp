@@ -21,18 +21,19 @@ TEST(Bearings, AreWhereTheAimedLaunchesStartAndEnd) {
   std::vector<BearingLanes> bearings;
   int looked_at = 0, turned = 0, full = 0;
   for (std::size_t from = 0; from < default_library().actions().size(); from += 3) {
-    const ActionTable& table = tables.at(ActionId(from));
+    const Followers& follow = tables.after(tables.at(ActionId(from)));
     const Placement root{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-3, 3)};
     const Vec3 opponent(root.x + random.uniform(-2, 2), 0, root.z + random.uniform(-2, 2));
     const Vec3 then(opponent.x + random.uniform(-.5f, .5f), 0, opponent.z);
     NextLanes::Lanes all_x, all_z;
     all_x.fill(then.x), all_z.fill(then.z);
-    const std::vector<NextLanes::Lanes> then_x(table.next_lanes.size(), all_x);
-    const std::vector<NextLanes::Lanes> then_z(table.next_lanes.size(), all_z);
-    find_bearings(table.next_lanes, Frame(root), opponent, attack, other, then_x, then_z, bearings);
-    ASSERT_EQ(bearings.size(), (table.next.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < table.next.size(); ++i) {
-      const NextAction& next = table.next[i];
+    const std::vector<NextLanes::Lanes> then_x(follow.next_lanes.size(), all_x);
+    const std::vector<NextLanes::Lanes> then_z(follow.next_lanes.size(), all_z);
+    find_bearings(follow.next_lanes, Frame(root), opponent, attack, other, then_x, then_z,
+                  bearings);
+    ASSERT_EQ(bearings.size(), (follow.next.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < follow.next.size(); ++i) {
+      const NextAction& next = follow.next[i];
       const Action& action = *next.table->action;
       Launch launch;
       launch.action = next.to;
@@ -43,7 +44,7 @@ TEST(Bearings, AreWhereTheAimedLaunchesStartAndEnd) {
       const Placement end = InFlight(tables, launch).root_at(next.length);
       const BearingLanes& bearing = bearings[i / kLanes];
       const std::size_t lane = i % kLanes;
-      const std::string what = table.action->name + " to " + action.name;
+      const std::string what = default_library().actions()[from].name + " to " + action.name;
       EXPECT_NEAR(bearing.start_x[lane], launch.placement.x, 1e-4f) << what;
       EXPECT_NEAR(bearing.start_z[lane], launch.placement.z, 1e-4f) << what;
       EXPECT_NEAR(bearing.aim_sine[lane], std::sin(launch.aim), 1e-3f) << what;

@@ -56,8 +56,8 @@ class BoutTest : public DuelFixture {
         }
         const ActionId action = planner.plan(state, FighterId(side), last_contact).launch.action;
         planner.note_launch(FighterId(side), action);
-        const ActionTable& table = *node.side[side].flight.table;
-        moves.push_back({action, static_cast<std::uint8_t>(side), false, table.find_next(action)});
+        const Followers& follow = setup.side[side].launches().after(*node.side[side].flight.table);
+        moves.push_back({action, static_cast<std::uint8_t>(side), false, follow.find(action)});
       }
       events.clear();
       node = world.apply(node, moves[0]).node;

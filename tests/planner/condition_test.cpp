@@ -92,6 +92,38 @@ TEST_F(ConditionTest, AHurtArmIsSparedAndATiredFighterSavesWork) {
   EXPECT_GT(condition_cost(tired, style, cross, 200), condition_cost(tired, style, step, 50) + 1);
 }
 
+// Both fighters know how tired who is: whatever is launched in the tree lasts as long as it will.
+TEST_F(ConditionTest, TheTreeRunsAtThePaceOfWhoLaunches) {
+  Style style = wearing(1, 0);
+  style.horizon_s = 1.5;
+  const auto store = std::make_shared<ImpactStore>();
+  const FightState state = facing(0.9f, 10);
+  Condition tired;
+  tired.launched(wearing(1, 0), 1e9);
+  for (const std::size_t who : {0, 1}) {
+    Planner planner(library(), contenders(2, style), {}, 5, store);
+    planner.set_condition(FighterId(who), tired);
+    const DecisionTree tree = planner.tree(state, FighterId(0), 0, 120, 200);
+    int slow = 0, others = 0;
+    for (const TreeNode& node : tree.nodes) {
+      const TreeEdge& edge = node.edge;
+      if (node.parent < 0 || edge.forced || node.tick >= tree.start + tree.horizon) continue;
+      const Action& action = library().action(library().find(edge.action));
+      const Tick length = edge.action_end - edge.start;
+      const bool cut = std::any_of(edge.events.begin(), edge.events.end(),
+                                   [](const TreeEvent& one) { return one.cuts; });
+      if (cut || !edge.then.empty()) continue;
+      const bool paced = edge.who == FighterId(who);
+      EXPECT_EQ(length,
+                paced ? Pace(action, tired.pace()).reached(action.length()) : action.length())
+          << action.name;
+      ++(paced ? slow : others);
+    }
+    EXPECT_GT(slow, 3);
+    EXPECT_GT(others, 3);
+  }
+}
+
 // What is planned changes with it: a fighter with a ruined arm throws it less.
 TEST_F(ConditionTest, APlanSparesTheHurtArm) {
   Style style = wearing(0, 1);

@@ -69,7 +69,7 @@ class DuelFixture : public SyntheticFixture {
   DuelMove choice(const DuelNode& node, int side, const char* name) const {
     const ActionId action = library().find(name);
     return {action, static_cast<std::uint8_t>(side), false,
-            node.side[static_cast<std::size_t>(side)].flight.table->find_next(action)};
+            tables().after(*node.side[static_cast<std::size_t>(side)].flight.table).find(action)};
   }
   static std::vector<Contender> contenders(std::size_t count, const Style& style) {
     return std::vector<Contender>(count, {make_body({}), style});

@@ -259,7 +259,7 @@ struct Calendar {
     const int next = state.end[0] != state.end[1]     ? (state.end[0] < state.end[1] ? 0 : 1)
                      : state.last[0] != state.last[1] ? (state.last[0] ? 0 : 1)
                                                       : 0;
-    for (const NextAction& one : tables.at(state.action[next]).next) {
+    for (const NextAction& one : tables.after(tables.at(state.action[next])).next) {
       State child = state;
       if (state.end[0] == state.end[1]) child.last[next] = false, child.last[1 - next] = true;
       child.action[next] = one.to;
@@ -925,9 +925,10 @@ TEST_F(DuelTest, PathIsOneChoiceThatIsPlayedInFull) {
   EXPECT_EQ(found->first(), sink);
   DuelNode node = game.apply(root, *found).node;
   EXPECT_EQ(node.side[0].queue[0], blow);
-  node = game.apply(node, {low.find("idle"), 1, false,
-                           low_tables.at(low.find("idle")).find_next(low.find("idle"))})
-             .node;
+  node =
+      game.apply(node, {low.find("idle"), 1, false,
+                        low_tables.after(low_tables.at(low.find("idle"))).find(low.find("idle"))})
+          .node;
   ASSERT_EQ(node.now, 30);
   EXPECT_EQ(game.actor(node), Actor::forced);
   game.moves(node, moves);

@@ -200,7 +200,7 @@ TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
     shown.tone = shown.motion % 2 == 0 ? 1.0f : 0.65f;  // every other body is tired
     one.blow.struck.table = &shown;
     one.input.continued = one.continued;
-    one.input.tone = shown.tone;
+    one.input.tone = one.blow.tone = shown.tone;
     const std::uint64_t before = memo.counts().entries;
     const ImpactAnswer answer = memo.answer(one.blow);
     EXPECT_EQ(memo.counts().entries, before + 1);
@@ -217,6 +217,20 @@ TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
   ASSERT_GT(asked, 15u);
   EXPECT_GT(moved, 2u);
   EXPECT_EQ(same, asked);
+}
+
+TEST_F(ImpactMemoTest, TiredBodiesAnswerByThemselves) {
+  const auto store = std::make_shared<ImpactStore>();
+  ImpactMemo memo({&tables()}, {}, store);
+  int other = 0;
+  for (Met& one : random_blows(60, 15)) {
+    const ImpactAnswer fresh = memo.answer(one.blow);
+    one.blow.tone = 0.65f;
+    const ImpactAnswer tired = memo.answer(one.blow);
+    EXPECT_EQ(tired, memo.recomputed(one.blow));
+    other += tired.outcome == fresh.outcome ? 0 : 1;
+  }
+  EXPECT_GT(other, 20);
 }
 
 TEST_F(ImpactMemoTest, StoreKeepsBodiesApart) {

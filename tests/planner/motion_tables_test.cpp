@@ -86,7 +86,7 @@ TEST_F(PartsOfResponses, AreTheNearestToTheShareAndLeadWhereTheWholeLeads) {
       const ActionTable& part = tables().at(id, share);
       EXPECT_EQ(part.action, whole.action);
       EXPECT_EQ(part.length, whole.length);
-      EXPECT_EQ(part.next.size(), whole.next.size());
+      EXPECT_EQ(&tables().after(part), &tables().after(whole));
       EXPECT_EQ(&tables().at(part.id), &part);  // by an id of its own
       EXPECT_GE(part.id.at(), default_library().actions().size());
     }
@@ -208,7 +208,7 @@ TEST_F(MotionsInFlight, ThatAreAsTheirClipsHaveTheirTables) {
   const MotionInFlight motion = as_the_clip();
   const ActionTable shown = tables().in_flight(motion), &clip = tables().at(motion.launch.action);
   EXPECT_EQ(shown.length, clip.length);
-  EXPECT_EQ(shown.next.size(), clip.next.size());
+  EXPECT_EQ(&tables().after(shown), &tables().after(clip));
   ASSERT_EQ(shown.strikes.size(), clip.strikes.size());
   EXPECT_EQ(shown.strikes[0].strike.active_begin, clip.strikes[0].strike.active_begin);
   EXPECT_EQ(shown.strikes[0].strike.active_end, clip.strikes[0].strike.active_end);
@@ -243,6 +243,86 @@ TEST_F(MotionsInFlight, HaveTheRootOfTheFightAtAnyPace) {
       EXPECT_NEAR(wrapped_angle(flight.root_at(t).yaw - of_fight.yaw), 0, 1e-4f) << t;
     }
   }
+}
+
+// Whatever a tired fighter may launch is where the fight will show it, when it will.
+TEST_F(MotionsInFlight, OfTiredFightersArePlannedAsTheyWillBeShown) {
+  constexpr float kPace = 0.88f;
+  const MotionTables slow(tables(), kPace);
+  const MotionLibrary& library = default_library();
+  int defenses = 0;
+  for (std::size_t i = 0; i < library.actions().size(); ++i) {
+    const ActionId id(i);
+    const Action& action = library.action(id);
+    const ActionTable& table = slow.at(id);
+    ASSERT_EQ(&slow.after(table), &slow.after(tables().at(id)));
+    if (action.kind == Kind::response || action.kind == Kind::get_up) {
+      EXPECT_EQ(&table, &tables().at(id)) << action.name;
+      continue;
+    }
+    Launch launch;
+    launch.action = id;
+    launch.start = 50;
+    launch.placement = {0.4f, -1.0f, 0.7f};
+    launch.aim = radians(10);
+    launch.pace = Pace(action, kPace);
+    launch.end = launch.when(action.length());
+    const InFlight flight(slow, launch);
+    EXPECT_EQ(table.pace, launch.pace);
+    EXPECT_EQ(table.length, launch.end - launch.start) << action.name;
+    for (Tick t = launch.start; t <= launch.end; ++t) {
+      const Placement root = root_at(library, launch, t, slow.body().scale);
+      ASSERT_LT(glm::distance(flight.root_at(t).position(), root.position()), 1e-3f) << action.name;
+      const Pose shown = pose_at(library, launch, t, slow.body().scale);
+      const Pose planned = placed(table.pose_at(flight.age(t)), flight.frame_at(t).placement());
+      const BodyModel& body = slow.body();
+      ASSERT_LT(apart(capsules(body, world_pose(body.skeleton, planned)),
+                      capsules(body, world_pose(body.skeleton, shown))),
+                3e-3f)
+          << action.name << " at " << t;
+      for (std::size_t k = 0; k < action.strikes.size(); ++k) {
+        const Strike& strike = table.strikes[k].strike;
+        EXPECT_EQ(strike.active(flight.age(t)), action.strikes[k].active(launch.clip_age(t)))
+            << action.name << " at " << t;
+      }
+    }
+    if (!action.defense) continue;
+    ++defenses;
+    EXPECT_NEAR(launch.start + table.defense->begin, launch.when(action.defense->begin), 1);
+    EXPECT_NEAR(launch.start + table.defense->end, launch.when(action.defense->end), 1);
+  }
+  EXPECT_GT(defenses, 5);
+}
+
+TEST_F(MotionsInFlight, OfTiredFightersFollowTheSameActionsLater) {
+  const MotionTables slow(tables(), 0.85f);
+  int paths = 0;
+  for (std::size_t i = 0; i < default_library().actions().size(); ++i) {
+    const Followers &own = slow.after(slow.at(ActionId(i))),
+                    &clips = tables().after(tables().at(ActionId(i)));
+    ASSERT_EQ(own.next.size(), clips.next.size());
+    for (std::size_t k = 0; k < own.next.size(); ++k) {
+      const NextAction &late = own.next[k], &next = clips.next[k];
+      ASSERT_EQ(late.to, next.to);
+      EXPECT_EQ(late.path, next.path);
+      EXPECT_EQ(late.length, slow.at(next.to).length);
+      EXPECT_GT(late.length, next.length);
+      Tick lead = 0;
+      for (const ActionId over : next.path) lead += slow.at(over).length;
+      EXPECT_EQ(late.lead, lead);
+      EXPECT_EQ(late.table, &slow.at(next.to));
+      EXPECT_NEAR(late.end.x, next.end.x, 1e-3f);
+      EXPECT_NEAR(late.alignment.z, next.alignment.z, 1e-3f);
+      ASSERT_EQ(late.strikes.size(), next.strikes.size());
+      for (std::size_t s = 0; s < late.strikes.size(); ++s) {
+        EXPECT_GT(late.strikes[s].tick, next.strikes[s].tick);
+        EXPECT_NEAR(late.strikes[s].ahead, next.strikes[s].ahead, 0.02f);
+      }
+      paths += next.path.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(paths, 0);
+  EXPECT_GE(slow.lull(), tables().lull());
 }
 
 TEST_F(MotionsInFlight, AreWhereTheyAreShownAndBeforeThatWhereTheClipIs) {

@@ -75,7 +75,7 @@ TEST(Life, FightersTireAndAreHurtOnlyWhereTheirStyleSaysSo) {
 // fights a body of full tone would once have answered otherwise.
 TEST(Life, TheTreeForeseesWhatTiredBodiesDo) {
   int hits = 0, foreseen = 0;
-  for (const std::uint64_t seed : {5, 7, 10}) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
     SceneFile scene = duel("12");
     scene.seed = seed;
     for (SceneFighter& fighter : scene.fighters) fighter.style.fatigue = 100;
