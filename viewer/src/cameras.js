@@ -19,7 +19,6 @@ export class Cameras {
     this.cast = cast;
     this.changed = changed;
     this.name = 'follow';
-    this.span = 1;
     this.controls = new OrbitControls(stage.camera, stage.canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
@@ -36,21 +35,23 @@ export class Cameras {
     this.away = 1;
   }
 
-  // Metres from the target at which `width` metres across and a standing body fit the picture.
-  distance(width) {
+  // Metres from `centre` along `from` (unit) at which everybody is in the picture about time t, with
+  // room for arms, and a standing body.
+  distance(t, centre, from) {
     const half = Math.tan((this.stage.camera.fov * Math.PI) / 360);
-    return Math.max(2.25 / (2 * half), width / (2 * half * this.stage.camera.aspect));
-  }
-
-  // How far apart the fighters are, smoothed, plus room for arms.
-  spread(t) {
+    const right = new Vector3().crossVectors(UP, from).normalize();
+    const up = new Vector3().crossVectors(from, right);
     const f = Math.round(t * this.cast.rate);
-    let widest = 0;
+    let away = 0;
     for (let k = -24; k <= 24; k += 8) {
-      const at = this.cast.at(f + k);
-      for (const a of at) for (const b of at) widest = Math.max(widest, a.hips.distanceTo(b.hips));
+      for (const { hips } of this.cast.at(f + k)) {
+        const off = hips.clone().sub(centre).setY(0);
+        const tall = (Math.abs(off.dot(up)) + 1.125) / half;
+        const wide = (Math.abs(off.dot(right)) + 0.75) / (half * this.stage.camera.aspect);
+        away = Math.max(away, off.dot(from) + Math.max(tall, wide));
+      }
     }
-    return widest + 1.5;
+    return away;
   }
 
   // The middle of the fight at the height to look at: lower when somebody is down.
@@ -67,14 +68,15 @@ export class Cameras {
     return true;
   }
 
-  // Three quarters from a side, the first fighter at the left.
+  // Three quarters from a side, the first fighter at the left; from above where it is far away, so
+  // that who is behind is seen.
   place(t) {
     const centre = this.aim(t);
     const axis = this.cast.axis(t, 1);
     const from = new Vector3(-axis.z, 0, axis.x).applyAxisAngle(UP, -0.38);
-    this.away = this.distance(this.spread(t));
+    this.away = this.distance(t, centre, from);
     this.stage.camera.position.copy(centre).addScaledVector(from, this.away * 1.12);
-    this.stage.camera.position.y = centre.y + 0.75;
+    this.stage.camera.position.y = centre.y + Math.max(0.75, 0.22 * this.away);
     this.target.copy(centre);
     this.turned = this.bearing(t);
     this.controls.target.copy(centre);
@@ -93,12 +95,12 @@ export class Cameras {
     const centre = this.aim(t);
     const axis = this.cast.axis(t);
     const side = new Vector3(-axis.z, 0, axis.x);  // seen from here the first fighter stands at the left
-    const away = this.distance(this.spread(t));
     if (this.name === 'follow') {
       // Goes along and turns along: the fighters' axis stays as it lay in the picture. Nearer or
       // farther as they are.
       const bearing = this.bearing(t);
       const offset = camera.position.clone().sub(this.controls.target).applyAxisAngle(UP, bearing - this.turned);
+      const away = this.distance(t, centre, offset.clone().setY(0).normalize());
       offset.multiplyScalar(away / this.away);
       this.away = away;
       this.controls.target.add(centre.clone().sub(this.target));
@@ -106,11 +108,14 @@ export class Cameras {
       this.target.copy(centre);
       this.turned = bearing;
     } else if (this.name === 'side') {
-      this.look(centre, side.multiplyScalar(away), 0.12);
+      const away = this.distance(t, centre, side);
+      this.look(centre, side.multiplyScalar(away), 0.12 + 0.22 * Math.max(0, away - 4.5));
     } else if (this.name === 'front') {
-      this.look(centre, axis.multiplyScalar(away * 1.05).addScaledVector(side, away * 0.38), 0.55);
+      const from = axis.clone().addScaledVector(side, 0.36).normalize();
+      this.look(centre, from.clone().multiplyScalar(this.distance(t, centre, from) * 1.12), 0.55);
     } else if (this.name === 'top') {
-      this.look(centre, side.multiplyScalar(0.6), away * 1.25);
+      const from = UP.clone().addScaledVector(side, 0.1).normalize();
+      this.look(centre, side.multiplyScalar(0.6), this.distance(t, centre, from) * 1.25);
     } else if (this.name === 'ring') {
       this.look(new Vector3(0, 0.45, 0), new Vector3(5.4, 0, 7.2), 3.6);
     }
