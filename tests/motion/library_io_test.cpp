@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "base/hash.h"
@@ -280,6 +281,35 @@ TEST(LibraryIo, AnEdgeToWhatIsForcedIsRefused) {
   const auto read = library_from_bytes(library_bytes(bad), "x");
   ASSERT_FALSE(read);
   EXPECT_THAT(to_string(read.error()), HasSubstr("step cannot follow"));
+}
+
+TEST(LibraryIo, WhatFollowsBeyondAllBoundsIsRefused) {
+  // The first edge: after its section's first count and its own number, x, z, yaw and distance.
+  const std::string bytes = library_bytes(sample());
+  const std::size_t edge = section(bytes, 3).first + 8;
+  for (const auto& [place, number] : {std::pair<std::size_t, float>{0, 1001},
+                                      {1, -1e30f},
+                                      {2, 6300},
+                                      {2, std::nanf("")},
+                                      {3, std::numeric_limits<float>::infinity()}}) {
+    std::string far = bytes;
+    std::memcpy(far.data() + edge + 4 * place, &number, 4);
+    const auto read = library_from_bytes(rehashed(far), "x");
+    ASSERT_FALSE(read) << place << ": " << number;
+    EXPECT_THAT(to_string(read.error()), HasSubstr("edges"));
+  }
+  std::string near = bytes;
+  const float metres = 999;
+  std::memcpy(near.data() + edge, &metres, 4);
+  EXPECT_TRUE(library_from_bytes(rehashed(near), "x"));
+
+  const MotionLibrary good = sample();
+  MotionGraph graph = good.graph();
+  graph.transitions[0].alignment.placement.yaw = 6300;
+  const MotionLibrary bad(LibraryParts{"bad", good.actions(), good.machine(), graph, {}, {}, {}});
+  const auto read = library_from_bytes(library_bytes(bad), "x");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(to_string(read.error()), HasSubstr("graph"));
 }
 
 TEST(LibraryIo, NoBytesMakeItCrash) {
