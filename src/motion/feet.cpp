@@ -50,7 +50,10 @@ constexpr float kMostEasing = 0.015f;     // m: by which the hips move for that
 constexpr float kUpright = 0.7f;          // of its length: a leg that stands no higher is not eased
 constexpr float kLying = 0.6f;            // of the leg's length: hips lower than that do not stand
 constexpr float kCrouched = 0.4f;         // of the leg's length: nor lower than that
-constexpr float kToeLength = 0.04f;       // of the height: from the ball to the tip of the toes
+constexpr float kFlat = 0.3f;             // rad: of the roll of a foot that stands flat, at most
+constexpr float kHalfSole = 0.025f;       // of the height: from the middle of a sole to its edge
+constexpr float kHeelLength = 0.04f;      // the same from below the ankle to the end of the heel
+constexpr float kToeLength = 0.04f;       // the same from the ball to the tip of the toes
 
 constexpr std::array<Side, 2> kEachFoot = {Side::left, Side::right};
 
@@ -75,8 +78,24 @@ float bend_of(const WorldPose& world, const Limb& leg) {
 
 // Lowest height of the ball at which neither ball nor heel of a foot turned so is under the floor.
 float ball_floor(const Skeleton& skeleton, Quat foot) {
-  const Vec3 heel = -skeleton.offset[index(Joint::left_toes)] - kUp * skeleton.ankle_height();
+  const Vec3 heel = -skeleton.offset[index(Joint::left_toes)] - kUp * skeleton.ankle_height() -
+                    kForward * (kHeelLength * skeleton.height);
   return std::max(skeleton.toe_height(), -(foot * heel).y);
+}
+
+// Rolls a foot back that lies over on an edge of its sole as that comes down to the floor, at most
+// until it lies over no farther than the clip's.
+Quat edge_on_floor(const Skeleton& skeleton, Quat foot, float ball_height, Quat clip_foot) {
+  constexpr float kSoft = .3f;  // rad
+  const auto over = [](Quat rotation) {
+    return std::asin(std::clamp((rotation * kLeft).y, -1.0f, 1.0f));
+  };
+  const float roll = over(foot), own = std::abs(roll) - std::abs(over(clip_foot));
+  if (own <= 0) return foot;
+  const float low = std::max(0.0f, ball_height - ball_floor(skeleton, foot));
+  const float most = kFlat + low / (kHalfSole * skeleton.height);
+  const float back = std::min(own, soft_positive(std::abs(roll) - most, kSoft));
+  return glm::normalize(glm::angleAxis(-std::copysign(back, roll), foot * kForward) * foot);
 }
 
 // Lifts the toes of a foot that points down until their tip lies on the floor.
@@ -499,6 +518,8 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
     foot.path.follow(wanted, clip_ball, kBallAcceleration, kEasingRate);
     wanted += foot.path.eased();
     wanted.y = std::max(wanted.y, std::min(floor, foot.path.wanted().y));
+    foot_rotation[i] =
+        edge_on_floor(skeleton_, foot_rotation[i], wanted.y, clip_world.rotation[end]);
     foot.clip_turn = clip_world.rotation[end];
     foot.turn.step(kTickSeconds);
     height[i] = wanted.y;

@@ -103,13 +103,25 @@ double longest_drag(const BodyModel& body, std::span<const Pose> frames, std::si
   return longest;
 }
 
+// How deep, m, a sole is in the floor from frame `from` on.
+double deepest_sole(const BodyModel& body, std::span<const Pose> frames, std::size_t from) {
+  float lowest = 0;
+  for (const Pose& frame : frames.subspan(from)) {
+    const WorldPose world = world_pose(body.skeleton, frame);
+    for (const Side side : {Side::left, Side::right}) {
+      lowest = std::min(lowest, sole_height(body, world, side));
+    }
+  }
+  return static_cast<double>(-lowest);
+}
+
 struct Answered {
   HitQuery query;
   Tick hit = 0;
   bool done = false, stays_up = false, falls = false, knocked_out = false, got_up = false;
   Seam into_clip, into_get_up, back_to_guard;
   double skate = 0;
-  double drag = 0;  // m
+  double drag = 0, sole = 0;  // m: along the floor, and in it
   double off = -1;  // rad between the impulse and where the hips go; below 0 where they stay
   int answers = 0, steps = 0;
   double lifts = -1, lands = -1;  // s from the blow: the first step's foot; below 0 where none
@@ -180,6 +192,7 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
   if (a.stays_up) {
     const auto simulated = std::min(from + kSimulated, track.frames.size() - 1);
     a.drag = longest_drag(body, track.frames, simulated);
+    a.sole = deepest_sole(body, track.frames, simulated);
     a.skate =
         foot_skate_ratio(body.skeleton, std::span(track.frames).subspan(from), kTicksPerSecond);
   }
@@ -354,13 +367,14 @@ void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
 
 void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   rows.group("V7 what game makers report wrong");
-  std::vector<double> skate, drag;
+  std::vector<double> skate, drag, sole;
   std::vector<const Answered*> stood;
   std::size_t once = 0, falls = 0, up = 0;
   for (const Answered& a : all) {
     if (a.stays_up) {
       skate.push_back(a.skate);
       drag.push_back(a.drag);
+      sole.push_back(a.sole);
       stood.push_back(&a);
     }
     once += a.answers == 1 ? 1 : 0;
@@ -377,6 +391,10 @@ void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitR
     rows.said("a foot drawn along the floor for over 25 cm", "%",
               share(static_cast<std::size_t>(far), drag.size()), "");
     rows.said("the same, longest way", "m", quantile(drag, 1), "");
+    const auto deep = std::count_if(sole.begin(), sole.end(), [](double in) { return in > .03; });
+    rows.said("a sole deeper than 3 cm in the floor after the simulation", "%",
+              share(static_cast<std::size_t>(deep), sole.size()), "");
+    rows.said("the same, deepest", "m", quantile(sole, 1), "");
   }
   rows.held("hits with exactly one answer", "%", share(once, all.size()), "", at_least(100));
   if (falls > 0) {

@@ -252,6 +252,34 @@ TEST(StruckBodies, BringAFootThatWasThrownAsideBackOverTheFloor) {
     EXPECT_LT(skimmed(answer_to_case(c), .01f, .3f), .25f) << c.action;
 }
 
+// Feet come down on the floor. Heels and edges of soles that lay over went into it, by 4.3 to 6.2
+// cm.
+TEST(StruckBodies, SetTheirFeetOnTheFloorAndNotIntoIt) {
+  const std::vector<StruckCase> cases{
+      {"front_kick_rear_near",
+       .401060691,
+       Part::left_upper_arm,
+       {22.349728f, 0, -24.416752f},
+       .97354364f},
+      {"front_kick_rear_near", .330021125, Part::abdomen, {35.290707f, 0, -50.8689f}, .89960015f},
+      {"front_kick_rear_near",
+       .371511316,
+       Part::left_thigh,
+       {-18.06151f, 0, -46.54961f},
+       .676165f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    const BodyModel& body = answer.bodies.front();
+    float lowest = 0;
+    for (const Pose& frame : frames_from_hit(answer)) {
+      for (const Side side : {Side::left, Side::right}) {
+        lowest = std::min(lowest, sole_height(body, world_pose(body.skeleton, frame), side));
+      }
+    }
+    EXPECT_GT(lowest, -.025f) << c.action << " at " << c.at_s;
+  }
+}
+
 // Where a body turns back with a leg or an arm out, these go round with it: as long as if they went
 // straight, they whirled at 10 m/s.
 TEST(StruckBodies, TurnBackNoFasterThanTheirLimbsMayGoRound) {
