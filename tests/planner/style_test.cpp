@@ -29,6 +29,23 @@ TEST(StyleTest, EveryPublishedStyleReads) {
   }
 }
 
+// What learning brings is measured against `balanced`: nothing else may differ.
+TEST(StyleTest, AStudentIsBalancedButForItsLearning) {
+  const auto styles = assets_folder() / "styles";
+  const Style student = read_style(styles / "student.toml").value();
+  const Style balanced = read_style(styles / "balanced.toml").value();
+  EXPECT_EQ(student.learning, 1);
+  EXPECT_EQ(balanced.learning, 0);
+  for (const auto number :
+       {&Style::horizon_s, &Style::caution, &Style::duration_weight, &Style::rarity_weight,
+        &Style::distance_m, &Style::distance_sigma_m, &Style::boredom_after_s, &Style::boredom_rate,
+        &Style::temperature, &Style::attack_bonus}) {
+    EXPECT_EQ(student.*number, balanced.*number);
+  }
+  EXPECT_EQ(student.strikes, balanced.strikes);
+  EXPECT_EQ(student.liked, balanced.liked);
+}
+
 TEST(StyleTest, FieldsAreRead) {
   const auto style = read_written(
       "leaf = \"paper\"\nhorizon_s = 1\ncandidates = 9\n"
