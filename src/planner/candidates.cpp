@@ -18,6 +18,7 @@ constexpr double kAnswerable =
     0.6;  // share of an attack's worth against a body that may still answer
 constexpr float kOutOfReach = 1.5f;  // m short of the opponent: an attack from there is none
 constexpr double kNoRopes = 1e6;     // m: so far away that nobody comes near them
+constexpr double kUnusual = 1;       // points for each factor of e by which something is less seen
 constexpr double kFeintWorth = 3;  // points that a feint is expected to bring who takes another in
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
@@ -349,10 +350,15 @@ void Duel::foresee_taken_in(const Node& node) {
   picked_.assign(1, *answer);
 }
 
-// What the opponent was seen to do in such a situation takes the place of what it could do: the
-// usual list shrinks as the counts come to be believed, and the habits cover as much of what was
-// seen. A list that is no longer than what is known of the opponent is no pathology: it is not
-// expected to do anything else.
+// Points of f that a launch seen `count` times costs who was seen to launch another `most_seen`
+// times in the same situation: as if it chose with odds that grow e-fold for each point.
+double Duel::unusual(int count, int most_seen) const {
+  return setup_->learning * kUnusual * std::log((most_seen + 1.0) / (count + 1.0));
+}
+
+// What the opponent was seen to do in such a situation comes first in its list, as much of it as is
+// believed, and what it could do besides comes after, at a price. The list stays as long as ever:
+// a shorter one would make the planner hope.
 void Duel::foresee_habit(const Node& node, std::size_t most) {
   const Duelist& self = node.side[1];
   const float apart = glm::distance(node.side[0].flight.root_at(node.now).position(),
@@ -363,33 +369,35 @@ void Duel::foresee_habit(const Node& node, std::size_t most) {
       looks_like_attack(*met.table->action, met.launch, node.now, side(1).style->late_sight_s));
   const int total = setup_->habits->total(situation);
   if (total == 0) return;
-  const double belief = setup_->learning * Habits::belief(total);
-  const auto others =
-      static_cast<std::size_t>(std::lround((1 - belief) * static_cast<double>(most)));
+  const auto begins = [](const Scored& one) {
+    return one.next->path.empty() ? one.next->to : one.next->path.front();
+  };
+  const double believed = setup_->learning * Habits::belief(total) * total;
   foreseen_.clear();
   int covered = 0;
   for (const Habits::Seen& seen : setup_->habits->seen(situation)) {
-    if (foreseen_.size() >= most || covered >= belief * total) break;
+    if (foreseen_.size() >= most || covered >= believed) break;
     covered += seen.count;
     const Scored* best = nullptr;  // of those that begin with what was seen
     for (const Scored& one : scored_) {
-      const NextAction& next = *one.next;
-      if ((next.path.empty() ? next.to : next.path.front()) != seen.action) continue;
-      if (best == nullptr || one.better_than(*best)) best = &one;
+      if (begins(one) == seen.action && (best == nullptr || one.better_than(*best))) best = &one;
     }
     if (best != nullptr) foreseen_.push_back(*best);
   }
-  if (foreseen_.empty()) return;  // nothing of it can follow here
-  std::size_t left = others;
   for (const Scored& one : picked_) {
-    if (left == 0) break;
+    if (foreseen_.size() >= most) break;
     const bool known = std::any_of(foreseen_.begin(), foreseen_.end(),
                                    [&](const Scored& f) { return f.next == one.next; });
-    if (known) continue;
-    foreseen_.push_back(one);
-    --left;
+    if (!known) foreseen_.push_back(one);
   }
   picked_.swap(foreseen_);
+  int most_seen = 0;  // of what can follow here
+  for (const Scored& one : picked_) {
+    most_seen = std::max(most_seen, setup_->habits->count(situation, begins(one)));
+  }
+  for (Scored& one : picked_) {
+    one.unusual = thousandths(unusual(setup_->habits->count(situation, begins(one)), most_seen));
+  }
 }
 
 // The best of each choice that must not be missing, then the best of the rest; in order of score.

@@ -149,6 +149,9 @@ ValueRange Duel::range(const Node& node) const {
     const double factor = setup_->factors.rest[i];
     least += std::min(factor * low, factor * high);
     most += std::max(factor * low, factor * high);
+    if (i == 1 && setup_->habits != nullptr) {
+      most += launches * (unusual(0, setup_->habits->most()) + kRounding);
+    }
   }
   return {node.gained + static_cast<std::int32_t>(std::floor(1000 * least)),
           node.gained + static_cast<std::int32_t>(std::ceil(1000 * most))};
@@ -231,6 +234,8 @@ void Duel::launch_chosen(Node& node, const Move& move) const {
     queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
   credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control);
+  node.gained += move.unusual;
+  note_term(move.side, Term::control, 0, move.unusual);
   credit(node, move.side, bonus * reach, Term::control);
   credit(node, move.side, -own.weights.control * own.weights.duration * seconds(move.next->lead),
          Term::control);
@@ -311,7 +316,9 @@ void Duel::moves(const Node& node, std::vector<Move>& moves) {
     return;
   }
   score_candidates(node, next);
-  for (const Scored& one : picked_) moves.push_back({one.next->to, next, false, one.next});
+  for (const Scored& one : picked_) {
+    moves.push_back({one.next->to, next, false, one.next, one.unusual});
+  }
 }
 
 }  // namespace ringcraft

@@ -51,7 +51,8 @@ struct DuelMove {
   std::uint8_t side = 0;
   bool forced = false;
   const NextAction* next = nullptr;  // null where forced
-  ActionId first() const {           // what is launched: the path's first action where there is one
+  std::int32_t unusual = 0;  // thousandths: what it costs side 1 that this is no habit of it
+  ActionId first() const {   // what is launched: the path's first action where there is one
     return next != nullptr && !next->path.empty() ? next->path.front() : action;
   }
 };
@@ -241,7 +242,8 @@ class Duel {
     std::int32_t score;
     const NextAction* next;
     bool taken;
-    float apart;  // m: how far the roots are apart when it is over
+    float apart;               // m: how far the roots are apart when it is over
+    std::int32_t unusual = 0;  // DuelMove::unusual
     bool better_than(const Scored& o) const {
       return score != o.score ? score > o.score : next->to < o.next->to;
     }
@@ -256,6 +258,7 @@ class Duel {
   void pick_candidates(std::size_t most, const std::array<std::size_t, kChoices>& choices,
                        bool threatened);
   void foresee_habit(const Node& node, std::size_t most);
+  double unusual(int count, int most_seen) const;
   void foresee_taken_in(const Node& node);
 };
 static_assert(Game<Duel>);

@@ -45,6 +45,7 @@ void Habits::note(Situation situation, ActionId action) {
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
     return a.count != b.count ? a.count > b.count : a.action < b.action;
   });
+  most_ = std::max(most_, seen.front().count);
 }
 
 const std::vector<Habits::Seen>& Habits::seen(Situation situation) const {
@@ -55,6 +56,13 @@ int Habits::total(Situation situation) const {
   int sum = 0;
   for (const Seen& one : seen(situation)) sum += one.count;
   return sum;
+}
+
+int Habits::count(Situation situation, ActionId action) const {
+  for (const Seen& one : seen(situation)) {
+    if (one.action == action) return one.count;
+  }
+  return 0;
 }
 
 double Habits::belief(int total) {

@@ -42,6 +42,9 @@ class Habits {
   // What was launched in the situation, the most frequent first (at equal counts the lower index).
   const std::vector<Seen>& seen(Situation situation) const;
   int total(Situation situation) const;
+  int count(Situation situation, ActionId action) const;
+  // Of all situations, how often the most frequent launch of one was seen.
+  int most() const { return most_; }
 
   // How much the counts of a situation are believed, 0 (never met) .. 1: n / (n + 3).
   static double belief(int total);
@@ -60,6 +63,7 @@ class Habits {
   static constexpr std::size_t kBands = 3, kAfter = 7;
   static std::size_t index_of(Situation situation);
   std::array<std::vector<Seen>, 2 * kBands * kAfter> seen_;
+  int most_ = 0;
   std::vector<Begun> begun_;
 };
 

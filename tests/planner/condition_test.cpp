@@ -201,17 +201,33 @@ TEST_F(ConditionTest, TheTreeExpectsWhatWasSeen) {
   EXPECT_EQ(expected.size(), usual.size());  // nothing was seen
   for (int i = 0; i < 100; ++i) habits.note(situation_of(0.95f, Kind::idle, false), worst);
   game.moves(node, expected);
-  ASSERT_EQ(expected.size(), 1u);
+  ASSERT_EQ(expected.size(), usual.size());  // a shorter list would make the planner hope
   EXPECT_EQ(expected.front().action, worst);
+  for (const DuelMove& move : expected) {  // a hundred times to none
+    EXPECT_EQ(move.unusual, move.action == worst ? 0 : thousandths(std::log(101)));
+    DuelMove usual_one = move;
+    usual_one.unusual = 0;
+    EXPECT_EQ(game.step(node, move).node.gained - game.step(node, usual_one).node.gained,
+              move.unusual);
+  }
   setup_.learning = 0.5;
   game.moves(node, expected);
-  EXPECT_GT(expected.size(), 2u);
   EXPECT_EQ(expected.front().action, worst);
+  EXPECT_EQ(expected.back().unusual, thousandths(0.5 * std::log(101)));
+  setup_.learning = 1;
+  // Where the habit cannot follow, nothing is dearer for it.
+  for (int i = 0; i < 200; ++i) {
+    habits.note(situation_of(0.95f, Kind::idle, false), library().find("absorb_back"));
+  }
+  game.moves(node, expected);
+  EXPECT_EQ(expected.front().unusual, 0);
+  EXPECT_EQ(expected.back().unusual, thousandths(std::log(101)));
   // Of its own moves the planner knows all.
   node.side[0].flight.launch.end = 0;
   node.side[1].flight.launch.end = 60;
   game.moves(node, expected);
   EXPECT_EQ(expected.size(), usual.size());
+  for (const DuelMove& move : expected) EXPECT_EQ(move.unusual, 0);
 }
 
 TEST_F(ConditionTest, OnlyWhoLearnsPlansOtherwise) {
@@ -225,11 +241,11 @@ TEST_F(ConditionTest, OnlyWhoLearnsPlansOtherwise) {
   settings.node_limit = 300;
   const auto store = std::make_shared<ImpactStore>();
   Planner planner(library(), both, settings, 5, store), fresh(library(), both, settings, 5, store);
-  for (int i = 0; i < 40; ++i) {  // both were seen to step back, over and over, wherever they stood
+  for (int i = 0; i < 40; ++i) {  // both were seen to hook, over and over, wherever they stood
     for (const float distance : {0.9f, 1.3f, 2.0f}) {
       const FightState state = facing(distance);
       for (const std::size_t who : {0u, 1u}) {
-        planner.note_habit(state, FighterId(who), library().find("step_back"));
+        planner.note_habit(state, FighterId(who), library().find("hook"));
       }
     }
   }

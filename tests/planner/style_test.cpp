@@ -29,21 +29,21 @@ TEST(StyleTest, EveryPublishedStyleReads) {
   }
 }
 
-// What learning brings is measured against `balanced`: nothing else may differ.
-TEST(StyleTest, AStudentIsBalancedButForItsLearning) {
+// What learning brings is measured against `counter_puncher`: nothing else may differ.
+TEST(StyleTest, AStudentIsACounterPuncherButForItsLearning) {
   const auto styles = assets_folder() / "styles";
   const Style student = read_style(styles / "student.toml").value();
-  const Style balanced = read_style(styles / "balanced.toml").value();
+  const Style counter_puncher = read_style(styles / "counter_puncher.toml").value();
   EXPECT_EQ(student.learning, 1);
-  EXPECT_EQ(balanced.learning, 0);
-  for (const auto number :
-       {&Style::horizon_s, &Style::caution, &Style::duration_weight, &Style::rarity_weight,
-        &Style::distance_m, &Style::distance_sigma_m, &Style::boredom_after_s, &Style::boredom_rate,
-        &Style::temperature, &Style::attack_bonus}) {
-    EXPECT_EQ(student.*number, balanced.*number);
+  EXPECT_EQ(counter_puncher.learning, 0);
+  for (const auto number : {&Style::horizon_s, &Style::caution, &Style::defense_share,
+                            &Style::attack_bonus, &Style::distance_m, &Style::distance_sigma_m,
+                            &Style::late_sight_s, &Style::duration_weight, &Style::rarity_weight,
+                            &Style::boredom_after_s, &Style::boredom_rate, &Style::temperature}) {
+    EXPECT_EQ(student.*number, counter_puncher.*number);
   }
-  EXPECT_EQ(student.strikes, balanced.strikes);
-  EXPECT_EQ(student.liked, balanced.liked);
+  EXPECT_EQ(student.strikes, counter_puncher.strikes);
+  EXPECT_EQ(student.liked, counter_puncher.liked);
 }
 
 TEST(StyleTest, FieldsAreRead) {
