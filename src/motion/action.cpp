@@ -149,6 +149,7 @@ Action mirrored(const Action& action) {
   for (Strike& strike : result.strikes) strike.joint = mirrored(strike.joint);
   for (std::string& word : result.leads_to) word = mirrored_name(word);
   if (result.response) result.response->direction = -result.response->direction;
+  if (result.feint) result.feint->of = mirrored_name(result.feint->of);
   return result;
 }
 

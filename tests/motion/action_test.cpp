@@ -51,11 +51,13 @@ TEST(Action, MirroringSwapsTheHandTheNameAndTheDirection) {
   Action jab = test::action_of("jab_left_to_right_knee", Kind::attack, test::jab_clip(skeleton));
   jab.strikes.push_back({StrikeKind::straight, Joint::left_hand, TargetZone::head, 18, 26});
   jab.response = Response{ResponseKind::recovery_steps, 2, 0.5f};
+  jab.feint = Feint{"cross_right"};
   const Action other = mirrored(jab);
   EXPECT_EQ(other.name, "jab_right_to_left_knee");
   EXPECT_EQ(other.strikes[0].joint, Joint::right_hand);
   EXPECT_EQ(other.strikes[0].active_begin, 18);
   EXPECT_EQ(other.response->direction, -0.5f);
+  EXPECT_EQ(other.feint->of, "cross_left");
   EXPECT_POSE_NEAR(skeleton, other.clip.at(24), mirrored(jab.clip.at(24)), 0);
   EXPECT_EQ(mirrored(other).name, jab.name);
   EXPECT_EQ(mirrored(other).strikes[0].joint, Joint::left_hand);
