@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "physics/impact.h"
+#include "physics/response.h"
 
 namespace ringcraft {
 namespace {
@@ -27,7 +28,9 @@ std::int32_t damage_of(const Blow& blow, const ImpactOutcome& outcome) {
   } else if (zone == TargetZone::head) {
     points += kPerSpin * outcome.head_spin * std::min(1.0f, impulse / 10);
   }
-  if (outcome.response == ResponseKind::knockdown) {
+  const bool felled = outcome.response == ResponseKind::knockdown &&
+                      interrupts(blow.blocked, glm::length(blow.impulse), outcome);
+  if (felled) {
     points += outcome.knockout ? kKnockout : kKnockdown;
   }
   return static_cast<std::int32_t>(std::lround(1000 * points));

@@ -58,8 +58,11 @@ OwnMotion carried_by_the_action(const BodyModel& body, const ImpactFrame& frame,
     balance.guide(undisturbed, frame, k);
     undisturbed.step();
   }
-  const Vec3 own = extrapolated_of(body, undisturbed);
-  return {own - steadied(base, own), strayed_feet(body, frame, undisturbed)};
+  const auto carried = [&](float turning) {
+    const Vec3 own = extrapolated_of(body, undisturbed, turning);
+    return own - steadied(base, own);
+  };
+  return {{carried(.5f), carried(1)}, strayed_feet(body, frame, undisturbed)};
 }
 
 std::array<Vec3, 3> moved(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll) {
@@ -157,10 +160,11 @@ bool stands(const BodyModel& body, const ImpactFrame& frame) {
 constexpr float kDoubt = .03f, kClear = .04f;
 constexpr int kWatchedAtOnce = 24, kMostWatched = 96;  // of 1/240 s
 
-// Whether the body, watched on from `kImpulseSteps` on, keeps its balance.
-bool holds(const BodyModel& body, const ImpactFrame& frame, Ragdoll& ragdoll, Balance& balance) {
+// Whether the body, watched on from step `k` on, keeps its balance.
+bool holds(const BodyModel& body, const ImpactFrame& frame, int k, Ragdoll& ragdoll,
+           Balance& balance) {
   float beyond = 0;
-  for (int k = kImpulseSteps; k < kMostWatched;) {
+  while (k < kMostWatched) {
     for (const int until = k + kWatchedAtOnce; k < until; ++k) {
       balance.guide(ragdoll, frame, k);
       ragdoll.step();
@@ -170,6 +174,18 @@ bool holds(const BodyModel& body, const ImpactFrame& frame, Ragdoll& ragdoll, Ba
     if (std::abs(beyond) >= kClear) break;
   }
   return beyond <= 0;
+}
+
+// Whether it would without the blow: held at the last pose that is known, some do not.
+bool holds_by_itself(const BodyModel& body, const ImpactFrame& frame, const Tone& tone) {
+  Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
+  undisturbed.set_tone(tone);
+  Balance balance(body, frame);
+  for (int k = 0; k < kImpulseSteps; ++k) {
+    balance.guide(undisturbed, frame, k);
+    undisturbed.step();
+  }
+  return holds(body, frame, kImpulseSteps, undisturbed, balance);
 }
 
 // How far, m, the kick has moved the foot beyond what still is no sweep; below 0 where it is none.
@@ -218,12 +234,17 @@ bool is_toppled(const BodyModel& body, const ImpactFrame& frame, const Tone& ton
 
 // Whether the body sits down: hips that drop so fast that legs which brake as hard as they can,
 // with a good two body weights, stop them no sooner than on the heels.
+constexpr float kHeels = .3f;  // of the leg's length: as high are hips that sit on them
 bool sits_down(const BodyModel& body, const Ragdoll& ragdoll) {
   constexpr float kLegsBrake = 12;  // m/s2, beyond gravity
-  constexpr float kHeels = .3f;     // of the leg's length: as high are hips that sit on them
   const PartMotion hips = ragdoll.motion(Part::pelvis);
   const float drops = std::max(0.0f, -hips.velocity.y);
   return hips.origin.y - drops * drops / (2 * kLegsBrake) < kHeels * body.skeleton.leg_length();
+}
+
+// Whether the body is down already: it takes no step, and no blow knocks it down.
+bool lies(const BodyModel& body, const ImpactFrame& frame) {
+  return frame.pose().hips.y < kHeels * body.skeleton.leg_length();
 }
 
 }  // namespace
@@ -258,7 +279,8 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   const Vec3 xi = extrapolated_of(body, ragdoll, so_far);
   const auto excess = [&](const OwnMotion& own) {
     const Footing footing = footing_of(body, frame, ragdoll, {planted, so_far, own.strayed});
-    return excess_of(body, frame.blow(), footing, input.tone, center, xi - own.carried);
+    return excess_of(body, frame.blow(), footing, input.tone, center,
+                     xi - own.carried[is_thigh(frame.blow().part) ? 0 : 1]);
   };
   Base::Beyond beyond = excess({});
   if (beyond.distance > 0) {
@@ -271,8 +293,11 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   const float swept = swept_by(body, frame, ragdoll);
   if (swept <= 0 && std::abs(beyond.distance) < kDoubt && stands(body, frame)) {
     constexpr float kJustNot = .001f;  // m
-    beyond.distance = holds(body, frame, ragdoll, balance) ? std::min(beyond.distance, 0.0f)
-                                                           : std::max(beyond.distance, kJustNot);
+    if (holds(body, frame, kImpulseSteps, ragdoll, balance)) {
+      beyond.distance = std::min(beyond.distance, 0.0f);
+    } else if (holds_by_itself(body, frame, struck_tone(input.tone))) {
+      beyond.distance = std::max(beyond.distance, kJustNot);
+    }
   }
   if (swept > 0) beyond.distance = std::max(beyond.distance, swept);
   outcome.margin = beyond.distance;
@@ -282,10 +307,9 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   if (!falls && outcome.response == ResponseKind::recovery_steps && strikes_standing_leg(frame)) {
     falls = is_toppled(body, frame, struck_tone(input.tone), ragdoll, balance);
   }
-  if (falls) {
-    outcome.response = ResponseKind::knockdown;
-    outcome.steps = 0;
-  }
+  if (falls) outcome.response = ResponseKind::knockdown;
+  if (lies(body, frame) && !outcome.knockout) outcome.response = ResponseKind::absorb;
+  if (outcome.response != ResponseKind::recovery_steps) outcome.steps = 0;
   return frame.out(outcome);
 }
 

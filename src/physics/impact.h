@@ -98,9 +98,10 @@ struct ImpactOutcome {
 };
 
 // What the body does by itself in the 100 ms, m: how far its own motion carries it out of its base,
-// and how far its feet (left, right; canonical frame) come off the way that the action has them go.
+// where half of its turning counts and where all of it does, and how far its feet (left, right;
+// canonical frame) come off the way that the action has them go.
 struct OwnMotion {
-  Vec3 carried{};
+  std::array<Vec3, 2> carried{};
   std::array<Vec3, 2> strayed{};
 };
 

@@ -118,7 +118,8 @@ std::vector<ActionId> get_ups_of(const MotionLibrary& library, Stance stance) {
 }  // namespace
 
 bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
-  return impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb);
+  return outcome.knockout ||
+         (impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb));
 }
 
 ActionId choose_response(const MotionLibrary& library, const BodyModel& body,

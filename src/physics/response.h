@@ -12,8 +12,8 @@ namespace ringcraft {
 // A blow of less impulse is a touch: nobody is moved by it. N s.
 inline constexpr float kTouchImpulse = 5.0f;
 
-// Whether a blow cuts the struck fighter's action: not a touch, and not a block that holds without
-// a step. `impulse` in N s.
+// Whether a blow cuts the struck fighter's action: not a touch, nor a block that holds without a
+// step, but always a knockout. `impulse` in N s.
 bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 
 // The response action of the outcome's kind that fits best by steps and how far they can go, by

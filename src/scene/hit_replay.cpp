@@ -145,8 +145,7 @@ json recomputed(const HitReplay& replay, ImpactOutcome outcome) {
   event.effective_mass = blow.effective_mass;
   event.head_spin = outcome.head_spin;
   event.damage = static_cast<float>(damage) / 1000;
-  const bool cuts =
-      outcome.knockout || interrupts(blow.blocked, glm::length(blow.impulse), outcome);
+  const bool cuts = interrupts(blow.blocked, glm::length(blow.impulse), outcome);
   event.response = cuts ? outcome.response : ResponseKind::absorb;
   event.steps = cuts ? outcome.steps : 0;
   event.direction = outcome.direction;

@@ -178,15 +178,17 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   event.effective_mass = input.blow.effective_mass;
   event.head_spin = answer.outcome.head_spin;
   event.damage = static_cast<float>(damage_of(input.blow, answer.outcome)) / 1000;
+  event.replay = replay_text(body, input, answer.outcome, kNoHealth);
+  // Who is only touched goes on, and so does a guard that holds a blow.
+  const bool cuts = interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome);
+  if (!cuts) answer.outcome.response = ResponseKind::absorb, answer.outcome.steps = 0;
   event.response = answer.outcome.response;
   event.steps = answer.outcome.steps;
   event.direction = answer.outcome.direction;
   event.knockout = answer.outcome.knockout;
-  event.replay = replay_text(body, input, answer.outcome, kNoHealth);
   answer.timeline.events.push_back(event);
 
-  // Who is only touched goes on, and so does a guard that holds a blow.
-  if (!interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome)) {
+  if (!cuts) {
     answer.response = query.action;
     if (is_guard_part(input.blow.part)) {
       showing.stage().drive_back(kStruck, input.blow.part, struck_velocity(input.blow));

@@ -123,6 +123,13 @@ TEST(Damage, CleanBlowsCostWhatIsExpectedOfThem) {
   EXPECT_GT(points(Part::chest, 30, 0, false), points(Part::left_thigh, 30, 0, false));
   EXPECT_LT(points(Part::left_forearm, 13, 0, true), 1.5f);
   EXPECT_EQ(points(Part::head, 0, 0, false), 0);
+  Blow blow;
+  ImpactOutcome felled;
+  felled.response = ResponseKind::knockdown;
+  blow.impulse = {0, 0, 6};
+  EXPECT_GT(damage_of(blow, felled), 5000);
+  blow.impulse = {0, 0, 4};  // a touch: it goes on
+  EXPECT_LT(damage_of(blow, felled), 1000);
 }
 
 }  // namespace

@@ -52,6 +52,20 @@ TEST(HitReplay, AFightsHitsComeOutToTheBit) {
   for (const Event& event : record.timeline.events) EXPECT_LT(event.replay.size(), 8192u);
 }
 
+TEST(HitReplay, ATouchOfALimpBodyComesOutToo) {
+  HitQuery hit = query();
+  hit.part = Part::chest;
+  hit.impulse = {0, 0, -3};
+  hit.tone = .1f;
+  const auto answer = simulate_hit(default_library(), hit);
+  ASSERT_TRUE(answer);
+  const std::vector<FighterLook> looks{{"struck", answer->bodies.front()}};
+  const auto report = replayed(events_jsonl(answer->timeline, looks, {}));
+  ASSERT_TRUE(report) << to_string(report.error());
+  EXPECT_EQ(report->hits, 1u);
+  EXPECT_EQ(report->differ, 0u) << ::testing::PrintToString(report->lines);
+}
+
 TEST(HitReplay, IsNoPartOfTheTimelinesHash) {
   HitQuery hit = query();
   const auto answer = simulate_hit(default_library(), hit);

@@ -25,9 +25,32 @@ TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
       const double at = share * seconds(action.length());
       const auto posed = posed_body(default_library(), query(action.name, at));
       ASSERT_TRUE(posed) << to_string(posed.error());
-      const auto outcome = impulse_step(posed->body, with_impulse(*posed, Part::head, {}, 1));
-      EXPECT_EQ(outcome.response, ResponseKind::absorb)
-          << action.name << " at " << at << " s, margin " << outcome.margin << " m";
+      for (const Part part : {Part::head, Part::left_thigh}) {
+        const auto outcome = impulse_step(posed->body, with_impulse(*posed, part, {}, 1));
+        EXPECT_EQ(outcome.response, ResponseKind::absorb)
+            << action.name << " at " << at << " s, margin " << outcome.margin << " m";
+      }
+    }
+  }
+  // Whose turning carries it; who would not hold the pose that it is watched in.
+  const auto answer = [](const char* action, double at, Part part, float tone) {
+    const auto posed = posed_body(default_library(), query(action, at));
+    return impulse_step(posed->body, with_impulse(*posed, part, {}, tone)).response;
+  };
+  EXPECT_EQ(answer("spinning_back_kick", .45, Part::left_thigh, 1), ResponseKind::absorb);
+  EXPECT_EQ(answer("slip_left", .14645859, Part::chest, .533565f), ResponseKind::absorb);
+}
+
+TEST(SingleHit, NoBlowKnocksDownWhoLies) {
+  for (const char* fall : {"knockdown_back", "knockdown_front", "knockdown_left"}) {
+    const Action& action = default_library().action(default_library().find(fall));
+    const auto posed = posed_body(default_library(), query(fall, seconds(action.length())));
+    ASSERT_TRUE(posed) << to_string(posed.error());
+    for (const float size : {2.0f, 30.0f, 150.0f}) {
+      const ImpactInput input = with_impulse(*posed, Part::chest, {0, 0, size}, 1);
+      const ImpactOutcome outcome = impulse_step(posed->body, input);
+      EXPECT_EQ(outcome.response, ResponseKind::absorb) << fall << " " << size;
+      EXPECT_EQ(outcome.steps, 0);
     }
   }
 }
@@ -59,6 +82,13 @@ TEST(SingleHit, WhoIsOnlyTouchedGoesOn) {
     EXPECT_EQ(answered, impulse < -kTouchImpulse);
     EXPECT_EQ(answer->response == hit.action, !answered);
   }
+  hit.tone = .1f;  // with it nobody stands
+  hit.impulse = {0, 0, -4};
+  const auto touched = simulate_hit(default_library(), hit);
+  ASSERT_TRUE(touched) << to_string(touched.error());
+  EXPECT_EQ(touched->outcome.response, ResponseKind::absorb);
+  EXPECT_EQ(touched->timeline.events.at(0).response, ResponseKind::absorb);
+  EXPECT_LT(touched->timeline.events.at(0).damage, 1);
 }
 
 TEST(SingleHit, WhatIsShownIsWholeAndHoldsTheHit) {
