@@ -31,16 +31,17 @@ Tally tally_of(const Timeline& timeline, FighterId fighter) {
       case EventType::hit:
         tally.landed += own && !event.fall;
         tally.hits_taken += event.whom == fighter;
+        if (event.whom == fighter && event.knockout) tally.knockouts = 1;  // nobody gets up from it
         break;
       case EventType::block:
         tally.blocked += own && !event.fall;
+        if (event.whom == fighter && event.knockout) tally.knockouts = 1;
         break;
       case EventType::miss:
         tally.missed += own;
         break;
       case EventType::knockdown:
         tally.knockdowns += own;
-        tally.knockouts += own && event.knockout;
         break;
       case EventType::response:
         if (own && event.response == ResponseKind::recovery_steps) {
@@ -169,11 +170,12 @@ json planner_json(const Timeline& timeline, const RunFacts& facts) {
 }
 
 json physics_json(const Timeline& timeline, const RunFacts& facts) {
-  std::uint64_t impacts = 0, agreed = 0;
+  std::uint64_t impacts = 0, strikes = 0, agreed = 0;  // the tree plans strikes, not falls
   double impulse = 0;
   for (const Event& event : timeline.events) {
     if (event.type != EventType::hit && event.type != EventType::block) continue;
     ++impacts;
+    strikes += event.fall ? 0u : 1u;
     impulse += glm::length(event.impulse);
     agreed += event.foreseen ? 1u : 0u;
   }
@@ -184,11 +186,11 @@ json physics_json(const Timeline& timeline, const RunFacts& facts) {
                   {"foreseen", facts.foreseen},
                   {"foreseen_agreement", nullptr},
                   {"foreseen_at_launch_agreement", nullptr}};
-  if (impacts > 0) {
+  if (strikes > 0) {
     physics["foreseen_agreement"] =
-        rounded(static_cast<double>(agreed) / static_cast<double>(impacts), 4);
+        rounded(static_cast<double>(agreed) / static_cast<double>(strikes), 4);
     physics["foreseen_at_launch_agreement"] =
-        rounded(static_cast<double>(facts.agreed_at_launch) / static_cast<double>(impacts), 4);
+        rounded(static_cast<double>(facts.agreed_at_launch) / static_cast<double>(strikes), 4);
   }
   return physics;
 }

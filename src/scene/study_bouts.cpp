@@ -168,7 +168,7 @@ BoutTally tally_of(const FightRecord& record) {
   const Timeline& timeline = record.timeline;
   BoutTally tally;
   tally.seconds = seconds(timeline.end);
-  int out = -1;
+  std::array<bool, 2> out{};
   Tick last = 0;
   const auto quiet_until = [&](Tick tick) {
     tally.quiet_s = std::max(tally.quiet_s, seconds(tick - last));
@@ -183,17 +183,22 @@ BoutTally tally_of(const FightRecord& record) {
     }
     if (event.type == EventType::knockdown) {
       ++tally.side[1 - who].knockdowns;
-      if (event.knockout) out = static_cast<int>(who);
     }
     if (event.type != EventType::hit && event.type != EventType::block) continue;
-    tally.side[who].hits += event.type == EventType::hit ? 1 : 0;
-    tally.side[who].damage += static_cast<double>(event.damage);
+    if (event.knockout) out[1 - who] = true;
     tally.contact = true;
     quiet_until(event.tick);
+    if (event.fall) continue;  // no blow of who falls
+    tally.side[who].hits += event.type == EventType::hit ? 1 : 0;
+    tally.side[who].damage += static_cast<double>(event.damage);
   }
-  if (out < 0) quiet_until(timeline.end);
+  if (!out[0] && !out[1]) quiet_until(timeline.end);
   const double lead = tally.side[0].damage - tally.side[1].damage;
-  tally.winner = out >= 0 ? 1 - out : std::abs(lead) <= kDrawPoints ? -1 : lead > 0 ? 0 : 1;
+  if (out[0] || out[1]) {
+    tally.winner = out[0] && out[1] ? -1 : out[0] ? 1 : 0;
+  } else {
+    tally.winner = std::abs(lead) <= kDrawPoints ? -1 : lead > 0 ? 0 : 1;
+  }
   count_segments(timeline, tally);
   count_distances(timeline, tally);
   return tally;

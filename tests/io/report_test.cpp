@@ -118,6 +118,22 @@ TEST(Report, CountsWhatHappened) {
   EXPECT_EQ(report["library"]["attacks"], sample::library().count(Kind::attack));
 }
 
+// Who is finished where it lies falls no more; and the tree foresees strikes, not falling bodies.
+TEST(Report, KnockoutsAreOfBlowsAndAgreementIsOfStrikes) {
+  Timeline timeline = sample::timeline();
+  std::erase_if(timeline.events,
+                [](const Event& event) { return event.type == EventType::knockdown; });
+  Event fall = timeline.events[2];
+  ASSERT_EQ(fall.type, EventType::hit);
+  fall.fall = true, fall.foreseen = false;
+  timeline.events.push_back(fall);
+  const json report = report_json(timeline, sample::looks(), sample::library(), facts());
+  EXPECT_EQ(report["fighters"][1]["knockdowns"], 0);
+  EXPECT_EQ(report["fighters"][1]["knockouts"], 1);
+  EXPECT_EQ(report["physics"]["impacts"], 3);
+  EXPECT_DOUBLE_EQ(report["physics"]["foreseen_agreement"], 0.5);
+}
+
 TEST(Report, AnEmptyFightHasZerosAndNoFaults) {
   const json report = report_json({}, {}, sample::library(), {});
   EXPECT_EQ(report["fighters"].size(), 0u);

@@ -88,6 +88,7 @@ inline std::vector<Event> events() {
   block.part = "leftForearm";
   block.impulse = {0, 0, 1};
   block.foreseen = false;
+  block.knockout = true;
   Event down = event(200, EventType::knockdown, 1, -1, "knockdown_back");
   down.response = ResponseKind::knockdown;
   down.knockout = true;

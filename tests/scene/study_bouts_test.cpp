@@ -99,10 +99,17 @@ TEST_F(StudyBoutsTest, TallyCountsWhatTheEventsSay) {
   EXPECT_DOUBLE_EQ(tally.side[1].damage, 1);
   EXPECT_EQ(tally.winner, 0);
   EXPECT_DOUBLE_EQ(tally.quiet_s, seconds(1200 - 600));
-  add(700, EventType::knockdown, 0, 0).knockout = true;  // who falls is who acts
+  add(650, EventType::hit, 1, 9).fall = true;  // a falling body's
+  tally = tally_of(record);
+  EXPECT_EQ(tally.side[1].hits, 0);
+  EXPECT_EQ(tally.winner, 0);
+  add(700, EventType::hit, 1, 1).knockout = true;
+  add(700, EventType::knockdown, 0, 0);  // who falls is who acts
   tally = tally_of(record);
   EXPECT_EQ(tally.winner, 1);
   EXPECT_EQ(tally.side[1].knockdowns, 1);
+  add(700, EventType::hit, 0, 1).knockout = true;  // both at once
+  EXPECT_EQ(tally_of(record).winner, -1);
 }
 
 TEST_F(StudyBoutsTest, TableSaysLeadDrawsQuietAndTheMostUsedAction) {

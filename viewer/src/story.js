@@ -66,12 +66,10 @@ export class Story {
         if (whom) whom.health = Math.max(0, whom.health - event.damage);
         if (who && event.type === 'hit') who.landed += 1;
         if (whom && event.type === 'block') whom.blocked += 1;
+        if (whom && event.knockout) whom.out = true;
       }
       if (who && ['hit', 'block', 'miss'].includes(event.type)) who.thrown += 1;
-      if (who && event.type === 'knockdown') {
-        who.downs += 1;
-        if (event.knockout) who.out = true;
-      }
+      if (who && event.type === 'knockdown') who.downs += 1;
     }
     return rows;
   }
