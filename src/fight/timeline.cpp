@@ -12,6 +12,7 @@ void add(Hasher& hasher, Vec3 v) {
 void add(Hasher& hasher, const Launch& launch) {
   hasher.add(launch.action.value).add(launch.start).add(launch.end).add(launch.placement.x);
   hasher.add(launch.placement.z).add(launch.placement.yaw).add(launch.aim).add(launch.forced);
+  hasher.add(launch.share).add(launch.pace.factor());
 }
 
 void add(Hasher& hasher, const DecisionRecord& record) {

@@ -42,9 +42,9 @@ class MotionLibrary {
   const Skeleton& skeleton() const { return skeleton_; }  // of kCanonicalHeight
   const std::vector<Action>& actions() const { return actions_; }
   const Action& action(ActionId id) const { return actions_[id.at()]; }
-  // The library whose clips that fighter of the scene shows.
   // As each of several fighters does it, null: as it is here (LibraryParts::fits).
   MotionLibrary with_fits(std::vector<std::shared_ptr<const MotionLibrary>> fits) const;
+  // The library whose clips that fighter of the scene shows.
   const MotionLibrary& of(FighterId fighter) const {
     const std::size_t i = fighter.at();
     return i < fits_.size() && fits_[i] != nullptr ? *fits_[i] : *this;

@@ -129,7 +129,7 @@ Blow ImpactMemo::kept(const LandedBlow& blow) {
     const auto compute = [&] { return mobility_of(bodies_[b]->body(), moment.pose(), part, tone); };
     if (moment.table->in_flight()) return compute();  // no two moments of those are the same
     Packer p;
-    p.add(moment.table->id.value, 13).add(moment.age, 12).add(static_cast<int>(part), 5);
+    p.add(moment.table->id.value, 20).add(moment.age, 12).add(static_cast<int>(part), 5);
     p.add(std::lround(tone * 1000), 10);
     return looked_up(mobilities_, &ImpactStore::mobilities, {p.a(), p.b(), worlds_[b]}, compute);
   });

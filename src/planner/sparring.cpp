@@ -158,7 +158,7 @@ class AttackSparring {
                                   const std::vector<InFlight>& targets) {
     std::size_t at = 0;
     for (Tick tick = strike.strike.active_begin; tick < strike.strike.active_end; ++tick) {
-      while (at + 1 < targets.size() && targets[at].launch.end <= tick) ++at;
+      while (at + 1 < targets.size() && targets[at].launch.end < tick) ++at;
       if (!may_reach(attack, strike, targets[at])) continue;
       if (const auto contact = contact_at(attack, strike, targets[at], tick))
         return Met{*contact, tick, contact->blocked};
