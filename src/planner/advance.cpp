@@ -65,7 +65,8 @@ void Duel::find_windows(const Node& node, Tick end) {
   add(1, node.side[1].flight, 0);
   for (std::size_t k = 0; k < setup_->others.size(); ++k) {
     for (int victim = 0; victim < 2; ++victim) {
-      add(2 + static_cast<int>(k), setup_->others[k].flight, victim);
+      if (!setup_->others[k].strikes[static_cast<std::size_t>(victim)]) continue;
+      add(2 + static_cast<int>(k), bystander(node, k), victim);
     }
   }
 }
@@ -163,8 +164,7 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
     victim.knocked_out = true;
     victim.flight.launch.end = kNever;
   }
-  const bool cut =
-      answer.outcome.knockout || interrupts(met.contact.blocked, answer.impulse, answer.outcome);
+  const bool cut = interrupts(met.contact.blocked, answer.impulse, answer.outcome);
   if (lies || !cut) return;
   victim.pending = answer.response;
   victim.pending_share = answer.share;
@@ -197,7 +197,9 @@ Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
                                       victim.flight, tick);
       if (!contact) continue;
       met_.push_back({window, *contact, tick});
-      window.to = tick;  // one strike lands once
+      for (Window& same : windows_) {  // one strike lands once, on one of them
+        if (same.attacker == window.attacker && same.strike == window.strike) same.to = tick - 1;
+      }
     }
     for (const Met& one : met_) land(node, one, move, fault);
     if (node.side[0].pending.valid() || node.side[1].pending.valid()) return tick;
@@ -278,14 +280,18 @@ void Duel::add_location(Node& node, Tick from, Tick to) const {
 std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tick to) const {
   const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
-  const InFlight& self = node.side[static_cast<std::size_t>(mover)].flight;
-  const InFlight& other = node.side[static_cast<std::size_t>(1 - mover)].flight;
+  const InFlight& self = duelist(node, mover).flight;
   const auto least = static_cast<float>(prune.penetration_m);
   const Tick every = std::max<Tick>(1, prune.penetration_every);
   for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-    float deepest = penetration_at(self, other, tick, least);
-    for (const Bystander& one : setup_->others) {
-      if (!one.lies()) deepest = std::max(deepest, penetration_at(self, one.flight, tick, least));
+    float deepest = 0;
+    for (int i = 0; i < 2; ++i) {
+      if (i == mover) continue;
+      deepest = std::max(deepest, penetration_at(self, duelist(node, i).flight, tick, least));
+    }
+    for (std::size_t k = 0; k < setup_->others.size(); ++k) {
+      if (setup_->others[k].lies() || mover == 2 + static_cast<int>(k)) continue;
+      deepest = std::max(deepest, penetration_at(self, bystander(node, k), tick, least));
     }
     if (deepest > 0) return fault_of(deepest);
   }
@@ -323,8 +329,7 @@ void Duel::play_on(Node& node) {
 std::int32_t Duel::advance(Node& node, const Move& move) {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return 0;
   const Tick from = node.now;
-  const Tick end =
-      std::min({node.side[0].flight.launch.end, node.side[1].flight.launch.end, horizon_});
+  const Tick end = std::min(next_end(node), next_reply(node));
   if (end <= from) return 0;
   std::int32_t fault = 0;
   const Tick to = meet(node, end, move, fault);

@@ -18,7 +18,8 @@ constexpr double kAnswerable =
     0.6;  // share of an attack's worth against a body that may still answer
 constexpr float kOutOfReach = 1.5f;  // m short of the opponent: an attack from there is none
 constexpr double kNoRopes = 1e6;     // m: so far away that nobody comes near them
-constexpr double kUnusual = 1;       // points for each factor of e by which something is less seen
+constexpr std::size_t kMostReplies = 2;
+constexpr double kUnusual = 1;     // points for each factor of e by which something is less seen
 constexpr double kFeintWorth = 3;  // points that a feint is expected to bring who takes another in
 
 const AimLimit kAttackLimit{std::sin(kMostAttackAim), std::cos(kMostAttackAim)};
@@ -185,8 +186,8 @@ double Duel::Aspect::attack(const NextAction& next, const Frame& start, const Fr
 }
 
 float Duel::reach_of(const Node& node, int who, const NextAction& next) const {
-  const InFlight& self = node.side[static_cast<std::size_t>(who)].flight;
-  const Duelist& other = node.side[static_cast<std::size_t>(1 - who)];
+  const InFlight& self = duelist(node, who).flight;
+  const Duelist& other = duelist(node, against(who));
   if (other.balance == 2 && !setup_->settings.hits_on_downed) return 0;
   Placement placement = (Frame(self.root_at(node.now)) * next.alignment).placement();
   placement.yaw += aim_at(*next.table->action, placement, other.flight.root_at(node.now).position(),
@@ -202,8 +203,8 @@ float Duel::reach_of(const Node& node, int who, const NextAction& next) const {
 }
 
 Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
-  const Duelist& self = node.side[static_cast<std::size_t>(who)];
-  const Duelist& other = node.side[static_cast<std::size_t>(1 - who)];
+  const Duelist& self = duelist(node, who);
+  const Duelist& other = duelist(node, against(who));
   Aspect aspect;
   aspect.own = &side(who);
   aspect.opponent = &other.flight;
@@ -232,7 +233,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
   aspect.rate_now = location_rate(aspect.own->weights, distance, cosine, to_ropes,
                                   aspect.opponent_down, overlap(aspect.fallen, at_now.x, at_now.z));
 
-  const SideSetup& their = side(1 - who);
+  const SideSetup& their = side(against(who));
   const Launch& launch = other.flight.launch;
   const Frame& frame = other.flight.aimed;
   for (std::size_t i = 0; i < other.flight.table->strikes.size(); ++i) {
@@ -258,7 +259,7 @@ Duel::Aspect Duel::aspect_of(const Node& node, int who) const {
 void Duel::score_candidates(const Node& node, int who) {
   const CostSpan span(setup_->cost, CostPart::candidates);
   static const float kCosineBack = std::cos(kBackTurned);
-  const Duelist& self = node.side[static_cast<std::size_t>(who)];
+  const Duelist& self = duelist(node, who);
   const SideSetup& own = side(who);
   Aspect aspect = aspect_of(node, who);
   const Followers& follow = own.launches().after(*self.flight.table);
@@ -332,10 +333,22 @@ void Duel::score_candidates(const Node& node, int who) {
     ++choices[static_cast<std::size_t>(spare.next->choice)];
   }
   scored_.resize(count);
+  if (who >= 2) return pick_replies(node, who, choices[static_cast<std::size_t>(Choice::attack)]);
   const auto most = static_cast<std::size_t>(std::max(1, own.style->candidates));
   pick_candidates(most, choices, !aspect.threats.empty());
   if (who == 1 && setup_->habits != nullptr) foresee_habit(node, most);
   if (who == 1 && setup_->feint) foresee_taken_in(node);
+}
+
+// The best attacks that may be launched at once and reach the planner, where it goes by itself.
+void Duel::pick_replies(const Node& node, int who, std::size_t attacks) {
+  picked_.clear();
+  std::sort(scored_.begin(), scored_.begin() + static_cast<std::ptrdiff_t>(attacks),
+            [](const Scored& a, const Scored& b) { return a.better_than(b); });
+  for (std::size_t i = 0; i < attacks && picked_.size() < kMostReplies; ++i) {
+    const NextAction& next = *scored_[i].next;
+    if (next.path.empty() && reach_of(node, who, next) > 0) picked_.push_back(scored_[i]);
+  }
 }
 
 // Who is taken in by a feint does what it would do about the attack, and knows no better.

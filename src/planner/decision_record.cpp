@@ -67,9 +67,10 @@ Line line_of(const RootMove<Duel>& root, const DuelSetup& setup) {
   line.score = root.value;
   line.at_most = !root.exact;
   const auto add = [&](const DuelMove& move) {
+    if (move.passes()) return;  // nothing is launched
     const std::string& name = library_of(setup).action(move.first()).name;
     line.actions.push_back(move.forced ? "*" + name : name);
-    line.actors.push_back(setup.side[move.side].id.value);
+    line.actors.push_back(id_of(setup, move.side).value);
   };
   add(root.move);
   for (const DuelMove& move : root.line) add(move);
@@ -133,10 +134,6 @@ std::vector<Event> foreseen_events(const DuelSetup& setup, const FightState& sta
 
 Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const DuelNode& node) {
   const MotionLibrary& library = library_of(setup);
-  const auto id = [&](int who) {
-    return who < 2 ? setup.side[static_cast<std::size_t>(who)].id
-                   : setup.others[static_cast<std::size_t>(who - 2)].id;
-  };
   const ImpactAnswer& answer = foreseen.answer;
   const Frame frame =
       node.side[static_cast<std::size_t>(foreseen.victim)].flight.frame_at(foreseen.tick);
@@ -145,8 +142,8 @@ Event event_of(const DuelEvent& foreseen, const DuelSetup& setup, const DuelNode
   event.type = foreseen.kind == DuelEvent::Kind::hit     ? EventType::hit
                : foreseen.kind == DuelEvent::Kind::block ? EventType::block
                                                          : EventType::miss;
-  event.who = id(foreseen.attacker);
-  event.whom = id(foreseen.victim);
+  event.who = id_of(setup, foreseen.attacker);
+  event.whom = id_of(setup, foreseen.victim);
   event.action = library.action(foreseen.attack).name;
   event.strike = library.action(foreseen.attack).strikes[foreseen.strike].kind;
   if (foreseen.kind == DuelEvent::Kind::evaded) return event;

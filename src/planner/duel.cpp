@@ -95,6 +95,7 @@ int Duel::next_side(const Node& node) const {
 
 Actor Duel::actor(const Node& node) const {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return Actor::forced;
+  if (asks(node)) return Actor::minimizer;
   const int next = next_side(node);
   const Duelist& one = node.side[static_cast<std::size_t>(next)];
   if (one.queue[0].valid() || one.flight.table->get_up.valid()) return Actor::forced;
@@ -104,7 +105,7 @@ Actor Duel::actor(const Node& node) const {
 std::uint64_t Duel::hash(const Node& node) const {
   Mixer mixer;
   mixer.add(node.now, 0).add(node.threats_met);
-  for (const Duelist& one : node.side) {
+  const auto add = [&](const Duelist& one) {
     const Launch& launch = one.flight.launch;
     mixer.add(launch.action.value, launch.start).add(launch.end, one.pending.value);
     mixer.add(launch.placement.x, launch.placement.z).add(launch.placement.yaw, launch.aim);
@@ -113,7 +114,10 @@ std::uint64_t Duel::hash(const Node& node) const {
               launch.spent);
     mixer.add(one.health, 0);
     for (const ActionId queued : one.queue) mixer.add(queued.value, 0);
-  }
+  };
+  for (const Duelist& one : node.side) add(one);
+  if (node.asked > 0) mixer.add(node.asked, node.replier);
+  if (node.replier >= 0) add(node.reply);
   return mixer.digest();
 }
 
@@ -128,8 +132,10 @@ bool Duel::may_strike(const InFlight& flight, Tick after) const {
 
 ValueRange Duel::range(const Node& node) const {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return {};
-  for (const Bystander& one : setup_->others) {
-    if (may_strike(one.flight, node.now)) return {};
+  if (next_reply(node) < horizon_) return {};
+  for (std::size_t k = 0; k < setup_->others.size(); ++k) {
+    const auto& [first, second] = setup_->others[k].strikes;
+    if ((first || second) && may_strike(bystander(node, k), node.now)) return {};
   }
   constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
   constexpr double kRounding = 0.001;  // points: every credit is rounded by itself
@@ -165,12 +171,12 @@ void Duel::note_term(int who, Term term, double points, std::int32_t credited) c
 }
 
 void Duel::credit(Node& node, int who, double points, Term term) const {
-  const auto i = static_cast<std::size_t>(who);
+  const auto i = static_cast<std::size_t>(std::min(who, 1));  // who replies is an opponent
   const bool event = term == Term::hit || term == Term::defense;
   const std::int32_t credited =
       thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
   node.gained += credited;
-  note_term(who, term, points, credited);
+  note_term(static_cast<int>(i), term, points, credited);
 }
 
 void Duel::launch_forced(Node& node, int who, ActionId action) const {
@@ -202,8 +208,8 @@ void Duel::launch_forced(Node& node, int who, ActionId action) const {
 
 // An action out of the own stance, by a direct edge, aimed at the opponent.
 void Duel::launch_aimed(Node& node, int who, const NextAction& next) const {
-  Duelist& self = node.side[static_cast<std::size_t>(who)];
-  const Duelist& opponent = node.side[static_cast<std::size_t>(1 - who)];
+  Duelist& self = who < 2 ? node.side[static_cast<std::size_t>(who)] : node.reply;
+  const Duelist& opponent = duelist(node, against(who));
   const SideSetup& own = side(who);
   const Placement placement = (Frame(self.flight.root_at(node.now)) * next.alignment).placement();
   const Action& what = *next.table->action;
@@ -223,15 +229,14 @@ void Duel::launch_aimed(Node& node, int who, const NextAction& next) const {
 void Duel::launch_chosen(Node& node, const Move& move) const {
   const SideSetup& own = side(move.side);
   const std::vector<ActionId>& path = move.next->path;
-  const Followers& follow = own.launches().after(*node.side[move.side].flight.table);
+  const Followers& follow = own.launches().after(*duelist(node, move.side).flight.table);
   const double bonus = reach_bonus(own.weights);
   const double reach = bonus > 0 && !move.next->strikes.empty()
                            ? static_cast<double>(reach_of(node, move.side, *move.next))
                            : 0.0;
   launch_aimed(node, move.side, path.empty() ? *move.next : *follow.find(path.front()));
-  auto& queue = node.side[move.side].queue;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
+    node.side[move.side].queue[i] = i + 1 < path.size() ? path[i + 1] : move.action;
   }
   credit(node, move.side, own.launch[move.action.at()] / 1000.0, Term::control);
   node.gained += move.unusual;
@@ -248,15 +253,17 @@ Child<DuelNode> Duel::apply(const Node& node, const Move& move) {
 }
 
 void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
-  if (move.forced || !setup_->settings.prune.penetration) return;
-  const InFlight& self = child.node.side[move.side].flight;
+  if (move.forced || move.passes() || !setup_->settings.prune.penetration) return;
+  const InFlight& self = duelist(child.node, move.side).flight;
+  // Who is asked for a reply cuts the edge, and is not to blame for where its mover goes on to.
+  const Tick to = move.side < 2 && asks(child.node) ? sides_end(child.node) : child.node.now;
   std::int32_t deep = child.node.checked == self.launch.start ? fallen_fault(self) : 0;
   if (deep == 0) {
-    deep = penetration_fault(child.node, move.side, child.node.checked, child.node.now);
+    deep = penetration_fault(child.node, move.side, child.node.checked, to);
   }
   if (deep > 0) ++counts_.penetration;
   child.fault += deep;
-  child.node.checked = child.node.now;
+  child.node.checked = to;
 }
 
 bool Duel::resume(const Node& /*node*/, const Move& move, Child<Node>& child) {
@@ -274,6 +281,11 @@ bool Duel::resume(const Node& /*node*/, const Move& move, Child<Node>& child) {
 Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   Child<Node> child{node, 0};
   child.node.checked = node.now;
+  if (move.side >= 2) {
+    reply(child.node, move);
+    child.fault = advance(child.node, move);
+    return child;
+  }
   Duelist& self = child.node.side[move.side];
   Duelist& other = child.node.side[static_cast<std::size_t>(1 - move.side)];
   const bool responds = self.pending.valid();
@@ -304,6 +316,7 @@ void Duel::moves(const Node& node, std::vector<Move>& moves) {
       return;
     }
   }
+  if (asks(node)) return find_replies(node, moves);
   const auto next = static_cast<std::uint8_t>(next_side(node));
   const ActionId queued = node.side[next].queue[0];
   if (queued.valid()) {

@@ -3,7 +3,9 @@
 //
 // A node is a moment at which somebody acts; an edge is an action, and lasts until the next
 // decision or the first hit. Side 0 plans (maximizes), side 1 is its chief opponent. Other fighters
-// do what they have already begun: obstacles and threats.
+// do what they have already begun: obstacles and threats. One of those whose chief opponent the
+// planner is may reply once it is free: with the attack that is worst for the planner, or not at
+// all (after the Best-Reply Search of Schadd and Winands 2011). It is number 2 + its index.
 
 #include <array>
 #include <optional>
@@ -44,24 +46,29 @@ struct DuelNode {
   std::int32_t gained = 0;        // f along the route so far, thousandths
   std::uint64_t threats_met = 0;  // bit 4 * other + strike: one of another's first four has landed
   Tick checked = 0;               // up to where the last edge was looked at for penetration
+  Duelist reply;                  // the bystander that has replied
+  std::int32_t replier = -1;      // which, an index into DuelSetup::others
+  std::int32_t asked = 0;         // of DuelSetup::repliers, those that have had their choice
 };
 
 struct DuelMove {
   ActionId action;
   std::uint8_t side = 0;
   bool forced = false;
-  const NextAction* next = nullptr;  // null where forced
+  const NextAction* next = nullptr;  // null where forced, and where no reply is made
   std::int32_t unusual = 0;  // thousandths: what it costs side 1 that this is no habit of it
   ActionId first() const {   // what is launched: the path's first action where there is one
     return next != nullptr && !next->path.empty() ? next->path.front() : action;
   }
+  bool passes() const { return !forced && next == nullptr; }  // `action` goes on
 };
 
 // A fighter outside the duel.
 struct Bystander {
   InFlight flight;
   FighterId id;
-  int body = 0;  // index into the memo's tables
+  int body = 0;                             // index into the memo's tables
+  std::array<bool, 2> strikes{true, true};  // either side: not where it is of its team
 
   bool lies() const { return flight.table->action->ends_lying != Lying::none; }  // or falls
 };
@@ -83,6 +90,15 @@ struct SideSetup {
   const MotionTables& launches() const { return paced != nullptr ? *paced : *tables; }
 };
 
+// A fighter outside the duel that may reply when it is free.
+struct Replier {
+  int other = 0;     // index into DuelSetup::others
+  Duelist now;       // at the root
+  SideSetup choice;  // what it may launch, and what that costs
+
+  Tick free() const { return now.flight.launch.end; }
+};
+
 // What side 1 is expected to do about a feint that side 0 begins at the root, where it must act
 // before it can tell the feint from its attack: what it would do about the attack.
 struct FeintAnswer {
@@ -102,8 +118,9 @@ struct DuelSetup {
   const Protection* protection = nullptr;
   ImpactMemo* memo = nullptr;
   std::vector<Bystander> others;
-  std::vector<Fallen> fallen;  // those of them that lie, or will when their fall is over
-  SearchCost* cost = nullptr;  // where the time went, for one thread; null: nobody asks
+  std::vector<Replier> repliers;  // in the order in which they are free
+  std::vector<Fallen> fallen;     // those of them that lie, or will when their fall is over
+  SearchCost* cost = nullptr;     // where the time went, for one thread; null: nobody asks
 };
 
 // Something that happened on the way; written down when a line is replayed.
@@ -132,6 +149,12 @@ struct DuelCounts {
   DuelCounts& operator+=(const DuelCounts& o);
   DuelCounts operator-(const DuelCounts& o) const;
 };
+
+// Of a side, or of 2 + an index of a bystander.
+inline FighterId id_of(const DuelSetup& setup, int who) {
+  return who < 2 ? setup.side[static_cast<std::size_t>(who)].id
+                 : setup.others[static_cast<std::size_t>(who - 2)].id;
+}
 
 class Duel {
  public:
@@ -181,6 +204,9 @@ class Duel {
   // Plays the actions in flight, with nobody deciding, until the first of them ends or is cut.
   void play_on(Node& node);
 
+  // Who launches what `who` does: a side, or 2 + an index of a bystander that may reply.
+  const Duelist& duelist(const Node& node, int who) const;
+
   // The side whose action ends first; at equal ends the one that was second at the last tie.
   int next_side(const Node& node) const;
 
@@ -200,7 +226,22 @@ class Duel {
   };
   struct Aspect;  // what candidates are weighed against; candidates.cpp
 
-  const SideSetup& side(int i) const { return setup_->side[static_cast<std::size_t>(i)]; }
+  // A side, or 2 + an index of a bystander that may reply.
+  const SideSetup& side(int i) const {
+    return i < 2 ? setup_->side[static_cast<std::size_t>(i)] : replier(i - 2).choice;
+  }
+  static constexpr int against(int who) { return who == 0 ? 1 : 0; }
+  const Replier& replier(int other) const;
+  const InFlight& bystander(const Node& node, std::size_t other) const {
+    const bool replied = node.replier == static_cast<std::int32_t>(other);
+    return replied ? node.reply.flight : setup_->others[other].flight;
+  }
+  Tick next_reply(const Node& node) const;  // when somebody is to be asked; kNever: nobody
+  bool asks(const Node& node) const;        // whether somebody is, now
+  void find_replies(const Node& node, std::vector<Move>& moves);
+  void reply(Node& node, const Move& move) const;
+  static Tick sides_end(const Node& node);  // the first end of the two sides' actions
+  Tick next_end(const Node& node) const { return std::min(sides_end(node), horizon_); }
   void credit(Node& node, int side, double points, Term term) const;
   void note_term(int side, Term term, double points, std::int32_t credited) const;
   void launch_forced(Node& node, int side, ActionId action) const;
@@ -255,6 +296,7 @@ class Duel {
 
   Aspect aspect_of(const Node& node, int side) const;
   void score_candidates(const Node& node, int side);
+  void pick_replies(const Node& node, int who, std::size_t attacks);
   void pick_candidates(std::size_t most, const std::array<std::size_t, kChoices>& choices,
                        bool threatened);
   void foresee_habit(const Node& node, std::size_t most);

@@ -80,11 +80,16 @@ struct Planner::Inside {
          std::shared_ptr<ImpactStore> store);
   DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
                   Tick last_contact) const;
+  void add_repliers(DuelSetup& duel, const FightState& state, Tick last_contact) const;
   SideSetup side_setup(FighterId fighter, FighterId other, double quiet, double apart) const;
   const ActionTable* in_flight(FighterId fighter, const Launch& launch) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
   Vec3 root_of(const FightState& state, FighterId fighter) const;
   float apart(const FightState& state, FighterId one, FighterId other) const;  // m
+  bool enemies(FighterId one, FighterId other) const {
+    const int team = contenders[one.at()].team;
+    return one != other && (team < 0 || team != contenders[other.at()].team);
+  }
   FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
   SoftChoice preference(const FightState& state, FighterId fighter) const;
@@ -104,6 +109,7 @@ struct Planner::Inside {
     if (!opponent.valid()) return std::nullopt;
     FightState seen = as_seen(truth, fighter, opponent);
     DuelSetup duel = setup(seen, fighter, opponent, last_contact);
+    if (settings.replies) add_repliers(duel, seen, last_contact);
     if (weigh_feints) duel.feint = feint_of(seen, fighter, opponent, last_contact);
     return View{opponent, std::move(seen), std::move(duel)};
   }
@@ -178,7 +184,7 @@ FighterId Planner::Inside::opponent_of(const FightState& state, FighterId fighte
   FighterId nearest;
   float least = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < state.fighters.size(); ++i) {
-    if (i == fighter.at()) continue;
+    if (!enemies(fighter, FighterId(i))) continue;
     const float distance = apart(state, fighter, FighterId(i));
     if (distance < least) least = distance, nearest = FighterId(i);
   }
@@ -301,12 +307,32 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
     Bystander one;
     one.body = body_of[i];
     one.id = FighterId(i);
+    one.strikes = {enemies(one.id, fighter), enemies(one.id, opponent)};
     one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
     if (const ActionTable* table = in_flight(one.id, one.flight.launch)) one.flight.table = table;
     setup.others.push_back(one);
     if (one.lies()) setup.fallen.emplace_back(one.flight);
   }
   return setup;
+}
+
+// Of the others, those that stand and whose chief opponent the planner is.
+void Planner::Inside::add_repliers(DuelSetup& duel, const FightState& state,
+                                   Tick last_contact) const {
+  const FighterId self = duel.side[0].id;
+  const double quiet = seconds(std::max(0, state.now - last_contact));
+  for (std::size_t k = 0; k < duel.others.size(); ++k) {
+    const Bystander& one = duel.others[k];
+    const FighterState& fighter = state.fighters[one.id.at()];
+    if (fighter.opponent != self || !one.strikes[0] || fighter.down() || one.lies()) continue;
+    Replier replier;
+    replier.other = static_cast<int>(k);
+    replier.now.flight = one.flight;
+    replier.choice = side_setup(one.id, self, quiet, apart(state, one.id, self));
+    duel.repliers.push_back(std::move(replier));
+  }
+  std::stable_sort(duel.repliers.begin(), duel.repliers.end(),
+                   [](const Replier& a, const Replier& b) { return a.free() < b.free(); });
 }
 
 SoftChoice Planner::Inside::preference(const FightState& state, FighterId fighter) const {

@@ -27,6 +27,7 @@ struct TreeShape;
 struct Contender {
   BodyModel body;
   Style style;
+  int team = -1;  // fighters of one team do not strike each other; below 0: of none
 };
 
 struct PruneSettings {
@@ -44,6 +45,7 @@ struct PlanSettings {
   int threads = 1;                    // never changes the result
   double ring_half_m = 3.0;           // half the side of the square ring; 0 is no ring
   bool hits_on_downed = false;
+  bool replies = true;     // one of the others may reply to the planner inside the tree
   bool alpha_beta = true;  // false: plain minimax, for tests
 };
 

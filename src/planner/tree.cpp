@@ -70,16 +70,16 @@ class Expansion {
     one.kind = quiet_.terminal(state)                 ? TreeKind::terminal
                : quiet_.actor(state) == Actor::forced ? TreeKind::forced
                                                       : TreeKind::decision;
-    if (one.kind != TreeKind::terminal) one.who = setup_.side[actor_of(state)].id;
+    if (one.kind != TreeKind::terminal) one.who = id_of(setup_, actor_of(state));
     evaluate(one, state);
     tree_.nodes.push_back(std::move(one));
     states_.push_back(state);
     loss_.push_back(0);
   }
 
-  std::size_t actor_of(const DuelNode& state) {
+  int actor_of(const DuelNode& state) {
     quiet_.moves(state, moves_);
-    return moves_.empty() ? static_cast<std::size_t>(quiet_.next_side(state)) : moves_[0].side;
+    return moves_.empty() ? quiet_.next_side(state) : moves_[0].side;
   }
 
   void evaluate(TreeNode& one, const DuelNode& state) {
@@ -103,14 +103,14 @@ class Expansion {
     game_.record_into(nullptr);
     game_.record_terms_into(nullptr);
     edge.kept = reasons_between(before, game_.counts());
-    edge.who = setup_.side[move.side].id;
+    edge.who = id_of(setup_, move.side);
     edge.action = library_.action(move.first()).name;
     edge.forced = move.forced;
     edge.start = from.now;
     edge.end = child.node.now;
-    const Launch& launched = child.node.side[move.side].flight.launch;
+    const Launch& launched = game_.duelist(child.node, move.side).flight.launch;
     edge.action_end = launched.end;
-    if (!move.forced && !move.next->path.empty()) {
+    if (move.next != nullptr && !move.next->path.empty()) {
       for (std::size_t i = 1; i < move.next->path.size(); ++i) {
         edge.then.push_back(library_.action(move.next->path[i]).name);
       }

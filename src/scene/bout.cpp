@@ -63,7 +63,8 @@ Bout::Bout(const MotionLibrary& library, const SceneFile& scene, const FightOpti
       end_(scene.duration) {
   std::vector<Contender> contenders;
   for (std::size_t i = 0; i < scene.fighters.size(); ++i) {
-    contenders.push_back({stage_.body(FighterId(i)), scene.fighters[i].style});
+    contenders.push_back(
+        {stage_.body(FighterId(i)), scene.fighters[i].style, scene.fighters[i].team});
     FighterState state;
     state.health = scene.fighters[i].health;
     state.launch.action = opening_action(library, scene.fighters[i].stance);
@@ -400,8 +401,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
     outcome.knockout = true;
   }
 
-  const bool cuts =
-      outcome.knockout || interrupts(blow.blocked, glm::length(input.blow.impulse), outcome);
+  const bool cuts = interrupts(blow.blocked, glm::length(input.blow.impulse), outcome);
 
   // 3. The record, and the response as the struck fighter's next action.
   event.tick = state_.now;
@@ -453,14 +453,16 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
   if (outcome.knockout) put_out(id);
 }
 
-// Who is out lies to the end of the bout, which comes soon where one is left.
+// Who is out lies to the end of the bout, which comes soon where nobody has an enemy left.
 void Bout::put_out(FighterId id) {
   if (is_out(id)) return;
   standing_[id.at()].out = true;
   Launch& last = fighter(id).launch;
-  int left = 0;
-  for (std::size_t i = 0; i < standing_.size(); ++i) left += !is_out(FighterId(i)) ? 1 : 0;
-  if (left <= 1) end_ = std::min(end_, last.end + kAfterKnockout);
+  bool over = true;
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    over = over && (is_out(FighterId(i)) || has_won(FighterId(i)));
+  }
+  if (over) end_ = std::min(end_, last.end + kAfterKnockout);
   last.end = kNever;
 }
 

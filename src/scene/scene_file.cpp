@@ -165,6 +165,7 @@ class Reader {
     const json& given = value_["planner"];
     planner.node_limit = given.value("node_limit", planner.node_limit);
     planner.hits_on_downed = given.value("hits_on_downed", planner.hits_on_downed);
+    planner.replies = given.value("replies", planner.replies);
     if (!given.contains("prune")) return;
     const json& prune = given["prune"];
     planner.prune.unanswered_hit = prune.value("unanswered_hit", planner.prune.unanswered_hit);

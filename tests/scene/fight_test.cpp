@@ -152,6 +152,22 @@ TEST(Fight, ABlowEndsWhereATeamMateStandsInItsWay) {
   EXPECT_LT(fastest(record.timeline.tracks[0].frames), 1.02f * fastest(kick.frames));
 }
 
+// Nobody has an enemy left: a moment later it is over, though two still stand.
+TEST(Fight, ATeamsBoutEndsWithItsLastEnemy) {
+  SceneFile scene = scene_of("brawl3", {"duration_s=30"});
+  scene.fighters[1].team = scene.fighters[0].team;
+  scene.fighters[2].health = 1;
+  for (SceneFighter& fighter : scene.fighters) fighter.style.horizon_s = .6;
+  const FightRecord record = simulate_fight(default_library(), scene);
+  const auto& events = record.timeline.events;
+  const auto out =
+      std::find_if(events.begin(), events.end(), [](const Event& event) { return event.knockout; });
+  ASSERT_NE(out, events.end());
+  EXPECT_EQ(out->whom, FighterId(2));
+  EXPECT_LT(record.timeline.end, out->tick + 8 * kTicksPerSecond);
+  EXPECT_LT(record.timeline.end, scene.duration);
+}
+
 // Two of one team step at each other behind their jabs, so near that their arms cannot give enough.
 TEST(Fight, BodiesGiveWayWhereLimbsCannot) {
   const MotionLibrary& library = default_library();
