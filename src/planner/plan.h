@@ -76,7 +76,8 @@ class Planner {
           std::uint64_t seed, std::shared_ptr<ImpactStore> store = nullptr);
   ~Planner();
 
-  // The decision of `fighter`, who acts now, against its opponent; the others are obstacles. An
+  // The decision of `fighter`, who acts now, against its opponent; the others are obstacles, and
+  // one of them may reply. An
   // opponent's feint that cannot be told from its attack yet is taken for the attack.
   // `last_contact` is the tick of the fight's last contact (0 where there was none): boredom counts
   // from it. Where nobody is to be fought, the launch is of the first action that may follow, or
