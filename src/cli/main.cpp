@@ -34,7 +34,7 @@ void add_talk(CLI::App& command, CommonOptions& options) {
 // Of a command that writes no file.
 void add_for_stdout(CLI::App& command, CommonOptions& options) {
   command.add_option("--threads", options.threads, "Threads; never changes the result")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole(1, 256));
   command.add_flag("--json", options.json, "Print the result as JSON on stdout");
   add_talk(command, options);
 }
@@ -47,7 +47,7 @@ void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) 
                     overrides == Overrides::seed ? "Seed of what is drawn at random"
                                                  : "Seed, instead of the scene's")
         ->type_name("N")
-        ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
+        ->transform(whole(0, kMostSeed));
   }
   if (overrides == Overrides::seed_and_values) {
     command.add_option("--set", options.sets, "Set one value: path.to.key=value (repeatable)")
@@ -137,7 +137,7 @@ void add_tree(CLI::App& app, CommonOptions& options, int& code) {
       ->required();
   tree->add_option("--nodes", asked->nodes, "Nodes to write out at most")
       ->type_name("N")
-      ->check(CLI::Range(1, 20000));
+      ->transform(whole(1, 20000));
   add_common(*tree, options, Overrides::seed_and_values);
   tree->callback([=, &options, &code] { code = run_tree(*scene, *asked, options); });
 }
@@ -168,7 +168,7 @@ void add_batch(CLI::App& app, CommonOptions& options, int& code) {
   const auto asked = std::make_shared<BatchOptions>();
   batch->add_option("--count", asked->count, "Bouts; the first has the scene's seed")
       ->type_name("N")
-      ->check(CLI::Range(1, 10000));
+      ->transform(whole(1, 10000));
   add_common(*batch, options, Overrides::seed_and_values);
   batch->callback([=, &options, &code] { code = run_batch_command(*scene, *asked, options); });
 }
@@ -220,7 +220,7 @@ void add_library_interpolate(CLI::App& library, CommonOptions& options, int& cod
   const auto name = add_library(*interpolate);
   const auto asked = std::make_shared<InterpolateOptions>();
   interpolate->add_option("--wanted", asked->wanted, "Wanted outcomes for each family")
-      ->check(CLI::Range(1, 10000));
+      ->transform(whole(1, 10000));
   add_common(*interpolate, options, Overrides::seed);
   interpolate->callback(
       [=, &options, &code] { code = run_library_interpolate(*name, *asked, options); });
@@ -270,7 +270,7 @@ void add_bench(CLI::App& app, CommonOptions& options, int& code) {
       ->check(within(0.5, 3600.0));
   bench->add_option("--rounds", asked->rounds, "How often the fight is fought")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->transform(whole(1, 1000));
   add_common(*bench, options, Overrides::seed_and_values);
   bench->callback([=, &options, &code] { code = run_bench_command(*scene, *asked, options); });
 }
@@ -282,7 +282,7 @@ void add_serve(CLI::App& app, CommonOptions& options, int& code) {
   serve->add_option("DIR", asked->folder, "Folder of results");
   serve->add_option("--port", asked->port, "Port of 127.0.0.1; 0 takes any that is free")
       ->type_name("N")
-      ->check(CLI::Range(0, 65535));
+      ->transform(whole(0, 65535));
   add_talk(*serve, options);
   serve->callback([=, &options, &code] { code = run_serve(*asked, options); });
 }

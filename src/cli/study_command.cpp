@@ -301,7 +301,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
     one.add_option(
            "--bouts", study.bouts,
            pairings ? "Bouts of each pairing" : "Bouts before, whose impulse steps are known")
-        ->check(CLI::Range(1, 10000));
+        ->transform(whole(1, 10000));
   }
   if (understood(kTakesDuration)) {
     one.add_option("--duration", study.duration_s, "Length of a bout, s")
@@ -310,7 +310,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
   if (understood(kTakesCount)) {
     one.add_option("--count", study.count,
                    understood(kTakesOnly) ? "Random hits of each question" : "Decisions")
-        ->check(CLI::Range(1, 1'000'000));
+        ->transform(whole(1, 1'000'000));
   }
   if (understood(kTakesSlow)) {
     one.add_option("--slow", study.slow, "Library in the paper's manner, slower by this factor")
