@@ -44,6 +44,8 @@ struct Style {
       strikes;  // strike kind -> factor on what its hits are worth; else 1
   std::map<std::string, double>
       liked;  // action name -> bonus in points per launch (may be negative)
+
+  bool operator==(const Style&) const = default;
 };
 
 // A TOML file held to the schema `style`: an unknown key or a value out of range is an error that

@@ -100,10 +100,6 @@ Totals totals_of(const PairingResult& result) {
   return sum;
 }
 
-bool same_style(const Style& a, const Style& b) {
-  return a.name == b.name && a.horizon_s == b.horizon_s && a.leaf == b.leaf;
-}
-
 double over(double value, double of) {
   return of > 0 ? value / of : 0;
 }
@@ -212,7 +208,7 @@ SceneFile bout_scene(const SceneFile& scene, const Pairing& pairing, const BoutS
   bout.planner.ring_half_m = static_cast<double>(series.ring_m) / 2;
   bout.planner.threads = 1;
   bout.fighters.resize(2, scene.fighters.front());
-  const bool mirror = same_style(pairing.side[0], pairing.side[1]);
+  const bool mirror = pairing.side[0] == pairing.side[1];
   bout.seed = derived_seed(scene.seed, "bout", static_cast<std::uint64_t>(mirror ? i : i / 2));
   Random random(bout.seed, 7);
   const float apart = random.uniform(kNearestStart, kFarthestStart);

@@ -56,6 +56,17 @@ TEST_F(StudyBoutsTest, SidesSwapFromOneStart) {
   EXPECT_EQ(even.planner.ring_half_m, 4);
 }
 
+// A copy of a style with one weight changed keeps its name: it is another style all the same.
+TEST_F(StudyBoutsTest, OnlyAStyleThatFightsItselfStartsEveryBoutAnew) {
+  Pairing itself;
+  const BoutSeries series{4, 10, 8};
+  EXPECT_NE(bout_scene(scene(), itself, series, 2).seed,
+            bout_scene(scene(), itself, series, 3).seed);
+  itself.side[1].caution += 1;
+  EXPECT_EQ(bout_scene(scene(), itself, series, 2).seed,
+            bout_scene(scene(), itself, series, 3).seed);
+}
+
 TEST_F(StudyBoutsTest, ThreadsAndASharedStoreChangeNoResult) {
   const BoutSeries series{4, 3, 6};
   StudyRun one, two;
