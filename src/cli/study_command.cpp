@@ -1,5 +1,7 @@
 #include "cli/study_command.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -24,6 +26,8 @@
 namespace ringcraft {
 
 namespace {
+
+constexpr float kLeastRing = 3;  // m: bouts of pairings begin up to 3 m apart
 
 // What a study understands besides the common options, one bit each.
 enum StudyTakes : std::uint32_t {
@@ -157,12 +161,44 @@ Result<MotionLibrary> studied_library(const SceneFile& scene, const StudyOptions
   return slowed_library(*library, options.slow);
 }
 
+// Whoever sets what every bout sets anew would believe that it counts.
+Result<void> check_sets(const std::vector<std::string>& sets) {
+  for (const std::string& set : sets) {
+    const std::string key = set.substr(0, set.find('='));
+    if (key != "fighter" && !key.starts_with("fighter.")) continue;
+    const bool of_the_two = key.starts_with("fighter.0.") || key.starts_with("fighter.1.");
+    const std::string what = of_the_two ? key.substr(10, key.find('.', 10) - 10) : "";
+    const auto own = {"style", "horizon_s", "team", "position", "yaw_deg"};
+    if (of_the_two && std::find(own.begin(), own.end(), what) == own.end()) continue;
+    return usage_error("--set " + key, "", "of no effect: every bout says itself who meets and where",
+                       "give styles or horizons as --pairings; fighter.0 and fighter.1 take body, "
+                       "health and stance");
+  }
+  return {};
+}
+
+// The default scene gives bodies, health and planner; length and ring are the study's own where
+// neither an option nor --set says otherwise.
+Result<SceneFile> scene_of_pairings(float usual_ring_m, const StudyOptions& study,
+                                    CommonOptions common) {
+  if (auto done = check_sets(common.sets); !done) return tl::unexpected(done.error());
+  const std::string usual[] = {"duration_s=60", fmt::format("ring_m={}", usual_ring_m)};
+  common.sets.insert(common.sets.begin(), std::begin(usual), std::end(usual));
+  auto scene = scene_with("duel", common);
+  if (!scene) return scene;
+  if (study.duration_s) scene->duration = ticks(*study.duration_s);
+  if (study.ring_m > 0) scene->ring = study.ring_m;
+  if (scene->ring >= kLeastRing) return scene;
+  return usage_error("--set ring_m", "", fmt::format("{:g} m is too small a ring", scene->ring),
+                     fmt::format("bouts begin up to 3 m apart: give {:g} m or more", kLeastRing));
+}
+
 // Runs the pairings and writes the study.
-int finish_pairings(Study study, const std::vector<Pairing>& pairings, const BoutSeries& series,
+int finish_pairings(Study study, const std::vector<Pairing>& pairings, float usual_ring_m,
                     const StudyOptions& options, const CommonOptions& common) {
-  StudyOptions of_scene;  // bodies, health and planner are those of the default scene
-  const auto scene = scene_of(of_scene, common);
+  const auto scene = scene_of_pairings(usual_ring_m, options, common);
   if (!scene) return fail(scene.error());
+  const BoutSeries series{options.bouts.value_or(10), seconds(scene->duration), scene->ring};
   const auto used = studied_library(*scene, options);
   if (!used) return fail(used.error());
   const StudyRun run = study_run(common);
@@ -204,9 +240,7 @@ int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>
   Study result;
   result.name = what.name;
   result.title = what.title;
-  const BoutSeries series{study.bouts.value_or(10), study.duration_s.value_or(60),
-                          study.ring_m > 0 ? study.ring_m : what.ring_m};
-  return finish_pairings(std::move(result), pairings, series, study, options);
+  return finish_pairings(std::move(result), pairings, what.ring_m, study, options);
 }
 
 }  // namespace
@@ -340,7 +374,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
         ->allow_extra_args(false);
     one.add_option("--leaf", study.leaf, "Leaf value")
         ->check(CLI::IsMember({"weighted", "paper", "both"}));
-    one.add_option("--ring", study.ring_m, "Side of the ring, m")->check(within(3.0, 50.0));
+    one.add_option("--ring", study.ring_m, "Side of the ring, m")->check(within(kLeastRing, 50.0));
   }
 }
 
