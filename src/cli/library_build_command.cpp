@@ -32,6 +32,15 @@ double mean_path(const MotionLibrary& library) {
   return pairs > 0 ? ticks / pairs : 0;
 }
 
+// Of a folder: captures and cuts that could not be read, each with its reason.
+std::vector<std::string> passed_over(const MotionLibrary& library) {
+  std::vector<std::string> notes;
+  for (const std::string& note : library.notes()) {
+    if (note.starts_with("passed over: ")) notes.push_back(note);
+  }
+  return notes;
+}
+
 nlohmann::json summary_of(const MotionLibrary& library) {
   std::size_t connecting = 0, blends = 0;
   for (const Action& action : library.actions()) {
@@ -52,6 +61,7 @@ nlohmann::json summary_of(const MotionLibrary& library) {
           {"connecting", connecting},
           {"blends", blends},
           {"dropped", library.dropped()},
+          {"passed_over", passed_over(library)},
           {"notes", library.notes()},
           {"mean_path_ticks", mean_path(library)},
           {"graph",
@@ -100,8 +110,10 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
                                          : std::filesystem::path(options.out);
   if (const auto written = write_library(*library, file); !written) return fail(written.error());
   const nlohmann::json summary = summary_of(*library);
-  if (options.verbose > 0) {
-    for (const std::string& note : library->notes()) tell("{}\n", note);
+  const std::vector<std::string> unread = passed_over(*library);
+  if (options.verbose > 0 || !options.quiet) {
+    for (const std::string& note : options.verbose > 0 ? library->notes() : unread)
+      tell("{}\n", note);
   }
   if (!options.quiet) {
     for (const std::string& dropped : library->dropped()) tell("dropped: {}\n", dropped);
@@ -114,13 +126,13 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   const auto number = [&](const char* key) { return summary[key].get<std::size_t>(); };
   fmt::print(
       "{}: {} actions ({} attacks, {} combinations, {} defenses, {} transitions, {} idles, {} "
-      "responses, {} get-ups; {} of them blends), {} dropped\n"
+      "responses, {} get-ups; {} of them blends), {} dropped, {} passed over\n"
       "motion graph: {} transitions between {} clips; {} short ways of it connect actions; from "
       "one "
       "action to the next {:.1f} ticks in the mean\n",
       file.string(), number("actions"), number("attacks"), number("combinations"),
       number("defenses"), number("transitions"), number("idles"), number("responses"),
-      number("get_ups"), number("blends"), library->dropped().size(),
+      number("get_ups"), number("blends"), library->dropped().size(), unread.size(),
       library->graph().transitions.size(), library->graph().clips.size(), number("connecting"),
       summary["mean_path_ticks"].get<double>());
   return 0;
