@@ -8,6 +8,7 @@
 
 #include "base/tasks.h"
 #include "io/events.h"
+#include "physics/response.h"
 
 namespace ringcraft {
 namespace {
@@ -187,7 +188,12 @@ Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
   const auto posed = posed_body(library, query);
   if (!posed) return tl::unexpected(posed.error());
   SweepPoint fixed;
-  fixed.impulse = static_cast<double>(glm::length(Vec3{query.impulse.x, 0, query.impulse.z}));
+  // The axes vary the impulse's size and its way over the ground; how steep it is stays.
+  const float size = glm::length(query.impulse);
+  const bool steep = query.impulse.y != 0;
+  const float level = steep ? std::hypot(query.impulse.x, query.impulse.z) / size : 1;
+  const float rise = steep ? query.impulse.y / size : 0;
+  fixed.impulse = static_cast<double>(size);
   fixed.direction = static_cast<double>(degrees(yaw_of(query.impulse)));
   fixed.tone = static_cast<double>(query.tone);
   HitSweep sweep;
@@ -199,16 +205,27 @@ Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
   sweep.what = fmt::format("{} at {:.2f} s, pushed at the {}", query.action, query.at_s,
                            name_of(query.part));
   for (const SweepAxis axis : kAxes) sweep.what += fixed_text(sweep, axis, fixed);
+  if (steep) {
+    sweep.what += fmt::format(", {:.1f} deg {}", degrees(std::abs(std::atan2(rise, level))),
+                              rise > 0 ? "upward" : "downward");
+  }
   std::atomic<std::size_t> done = 0;
   run_tasks(sweep.points.size(), options.threads, [&](std::size_t i) {
     if (options.interrupted != nullptr && options.interrupted->load(std::memory_order_relaxed)) {
       return;
     }
     SweepPoint& point = sweep.points[i];
-    const Vec3 way = yaw_rotation(radians(static_cast<float>(point.direction))) * kForward;
-    point.outcome = impulse_step(
-        posed->body, with_impulse(*posed, query.part, way * static_cast<float>(point.impulse),
-                                  static_cast<float>(point.tone)));
+    const Vec3 over_ground = yaw_rotation(radians(static_cast<float>(point.direction))) * kForward;
+    const Vec3 way = over_ground * level + kUp * rise;
+    const ImpactInput input =
+        with_impulse(*posed, query.part, way * static_cast<float>(point.impulse),
+                     static_cast<float>(point.tone));
+    point.outcome = impulse_step(posed->body, input);
+    if (!interrupts(input.blow.blocked, static_cast<float>(point.impulse), point.outcome)) {
+      point.outcome.response = ResponseKind::absorb;
+      point.outcome.steps = 0;
+      point.outcome.knockout = false;
+    }
     point.done = true;
     const std::size_t so_far = ++done;
     if (options.progress) options.progress(so_far, sweep.points.size());

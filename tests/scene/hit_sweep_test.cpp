@@ -48,6 +48,26 @@ TEST(HitSweep, AHarderHitIsNeverAnsweredByLess) {
   }
 }
 
+// The point of a sweep at the query's own size and direction is the query's hit.
+TEST(HitSweep, AnImpulseKeepsItsSteepness) {
+  HitQuery hit = query();
+  hit.part = Part::chest;
+  hit.impulse = {0, -40, 30};
+  const auto sweep =
+      sweep_hits(default_library(), hit, {*sweep_range("impulse=50"), *sweep_range("direction=0")});
+  const auto alone = simulate_hit(default_library(), hit);
+  ASSERT_TRUE(sweep && alone);
+  EXPECT_NEAR(sweep->points[0].outcome.head_spin, alone->outcome.head_spin, 1e-3f);
+  EXPECT_NEAR(sweep->points[0].outcome.margin, alone->outcome.margin, 1e-4f);
+  EXPECT_THAT(sweep->what, HasSubstr("53.1 deg downward"));
+}
+
+TEST(HitSweep, ATouchFellsNobody) {
+  for (const SweepPoint& point : swept({"tone=0", "impulse=0:4:1"}, Part::chest).points) {
+    EXPECT_EQ(severity(point.outcome), 0) << point.impulse << " N s";
+  }
+}
+
 TEST(HitSweep, SameBytesForAnyNumberOfThreads) {
   const std::vector<std::string> ranges = {"impulse=0:60:15", "direction=0:360:90", "tone=0:1:.5"};
   const HitSweep one = swept(ranges, Part::chest, 1), two = swept(ranges, Part::chest, 2);
