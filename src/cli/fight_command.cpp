@@ -95,6 +95,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const auto summary =
       write_fight(*folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
+  remove_old_exports(*folder, scene->fighters.size(), extras, files_of(*scene));
   const std::string& said = options.json ? summary->report : summary->text;
   if (options.summary_to_stderr) {
     tell("{}\n", said);

@@ -1,5 +1,6 @@
 #include "scene/fight_files.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@
 namespace ringcraft {
 
 namespace {
+
+constexpr std::size_t kMostExports = 16;  // fighters that a scene may have
 
 std::vector<FighterLook> looks_of(const SceneFile& scene, const FightRecord& record,
                                   const FightExtras& extras) {
@@ -112,6 +115,23 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
   if (const auto written = write_files(folder, files); !written)
     return tl::unexpected(written.error());
   return FightSummary{json_text(report, 1), text_of(report, folder / "fight.html")};
+}
+
+void remove_old_exports(const std::filesystem::path& folder, std::size_t fighters,
+                        const FightExtras& extras,
+                        const std::vector<std::filesystem::path>& inputs) {
+  const std::vector<std::string> own = fight_file_names(fighters, extras);
+  FightExtras all;
+  all.bvh.emplace();
+  all.vrma = true;
+  const std::vector<std::string> names = fight_file_names(kMostExports, all);
+  for (std::size_t i = fight_file_names(0, {}).size(); i < names.size(); ++i) {
+    if (std::find(own.begin(), own.end(), names[i]) != own.end()) continue;
+    if (!may_write(folder, {names[i]}, inputs)) continue;
+    std::error_code stays;
+    if (std::filesystem::is_regular_file(folder / names[i], stays))
+      std::filesystem::remove(folder / names[i], stays);
+  }
 }
 
 }  // namespace ringcraft

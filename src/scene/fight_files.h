@@ -40,4 +40,10 @@ Result<FightSummary> write_fight(const std::filesystem::path& folder, const Scen
                                  const MotionLibrary& library, const FightRecord& record,
                                  double wall_seconds, int threads, const FightExtras& extras = {});
 
+// Removes from `folder` what an earlier fight exported there (fighterN.bvh, fighterN.vrma) and this
+// one does not write; one of the `inputs` stays.
+void remove_old_exports(const std::filesystem::path& folder, std::size_t fighters,
+                        const FightExtras& extras,
+                        const std::vector<std::filesystem::path>& inputs);
+
 }  // namespace ringcraft
