@@ -8,11 +8,18 @@ namespace fs = std::filesystem;
 
 Result<fs::path> page_in(const fs::path& folder) {
   std::string names;
+  fs::path newest;
+  fs::file_time_type at;
   for (const ResultPage& page : kResultPages) {
     std::error_code failed;
-    if (fs::is_regular_file(folder / page.file, failed)) return folder / page.file;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", page.file);
+    if (!fs::is_regular_file(folder / page.file, failed)) continue;
+    const fs::file_time_type written = fs::last_write_time(folder / page.file, failed);
+    if (!newest.empty() && written <= at) continue;
+    newest = folder / page.file;
+    at = written;
   }
+  if (!newest.empty()) return newest;
   return input_error(folder.string(), "", "no page of a result there",
                      "name a folder that holds one of " + names);
 }

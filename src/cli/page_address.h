@@ -22,7 +22,7 @@ inline constexpr std::array<ResultPage, 7> kResultPages = {{{"fight.html", "Figh
                                                             {"tree.svg", "Game trees"},
                                                             {"library.html", "Libraries"}}};
 
-// The page of a folder of results, the first of kResultPages that is there.
+// The page of a folder of results: the newest, of equally old ones the first of kResultPages.
 Result<std::filesystem::path> page_in(const std::filesystem::path& folder);
 
 // Whether the name is that of a page, by its ending.

@@ -29,6 +29,13 @@ says() {
 says 0 "$address" 'a fight #1'
 grep -q 'no display' said || fault "does not say that there is no display"
 says 0 "$address" 'a fight #1/fight.html'
+# Of several pages the newest is meant: a sweep into the folder of a hit.
+mkdir hits
+touch -d '2 seconds ago' hits/hit.html
+touch hits/hit_sweep.svg
+says 0 "file://$folder/hits/hit_sweep.svg" hits
+touch -d '4 seconds ago' hits/hit_sweep.svg
+says 0 "file://$folder/hits/hit.html" hits
 BROWSER=$folder/browser says 0 "$address" 'a fight #1'
 [ "$(cat opened 2>/dev/null)" = "$address" ] || fault "the browser was given '$(cat opened)'"
 rm -f opened
