@@ -93,6 +93,7 @@ struct ServeOptions {
 struct ViewOptions {
   std::string what = "duel";  // folder, page or scene
   bool print = false;         // only the address
+  bool threads = false;       // --threads was given
 };
 
 // Set by SIGINT and SIGTERM.

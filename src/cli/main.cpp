@@ -294,7 +294,11 @@ void add_view(CLI::App& app, CommonOptions& options, int& code) {
   view->add_option("FOLDER|PAGE|SCENE", asked->what, "Folder of a result, page, or scene");
   view->add_flag("--print", asked->print, "Print the address, open nothing");
   add_common(*view, options, Overrides::seed_and_values);
-  view->callback([=, &options, &code] { code = run_view(*asked, options); });
+  view->remove_option(view->get_option("--json"));  // stdout has the address
+  view->callback([=, &options, &code] {
+    asked->threads = view->count("--threads") > 0;
+    code = run_view(*asked, options);
+  });
 }
 
 void add_completion(CLI::App& app, int& code) {

@@ -104,6 +104,7 @@ int run_view(const ViewOptions& view, const CommonOptions& options) {
   const char* of_fights = !options.out.empty()    ? "--out"
                           : options.seed          ? "--seed"
                           : !options.sets.empty() ? "--set"
+                          : view.threads          ? "--threads"
                                                   : nullptr;
   if (!page.empty() && of_fights != nullptr)
     return fail({ErrorKind::usage, view.what, of_fights, "of no effect on what is there already",
