@@ -19,6 +19,7 @@
 #include "capture/retarget.h"
 #include "capture/segment.h"
 #include "capture/sheet.h"
+#include "capture/words.h"
 #include "motion/library_io.h"
 #include "motion/strike_fit.h"
 
@@ -379,6 +380,11 @@ Result<Document> read_manifest(const std::filesystem::path& path) {
   if (begins_as_library(path))
     return input_error(path.string(), "", "a library that is built already",
                        "name the manifest or the captures that it was built from");
+  std::error_code ignored;
+  const bool capture = is_capture_file(path) || lowered(path.extension().string()) == ".asf";
+  if (capture && std::filesystem::exists(path, ignored))
+    return input_error(path.string(), "", "a capture, not a library",
+                       "name its folder to `ringcraft library build`, or a manifest that names it");
   return read_document(path, "manifest");
 }
 

@@ -7,13 +7,23 @@
 
 namespace ringcraft {
 
+bool is_gltf_file(const std::filesystem::path& path) {
+  const std::string kind = lowered(path.extension().string());
+  return kind == ".gltf" || kind == ".glb" || kind == ".vrm" || kind == ".vrma";
+}
+
+bool is_capture_file(const std::filesystem::path& path) {
+  const std::string kind = lowered(path.extension().string());
+  return kind == ".bvh" || kind == ".amc" || is_gltf_file(path);
+}
+
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source) {
   const std::string kind = lowered(path.extension().string());
   const bool acclaim = kind == ".amc";
-  const bool gltf = kind == ".gltf" || kind == ".glb" || kind == ".vrm" || kind == ".vrma";
+  const bool gltf = is_gltf_file(path);
   if (kind == ".asf")
     return input_error(path.string(), "", "a skeleton without motion", "give its .amc file");
-  if (!acclaim && !gltf && kind != ".bvh")
+  if (!is_capture_file(path))
     return input_error(path.string(), "", "no capture by its extension",
                        "give a .bvh, .amc, .gltf, .glb, .vrm or .vrma file");
   if (!acclaim && (!source.skeleton.empty() || source.frames_per_second))

@@ -17,6 +17,10 @@ struct CaptureSource {
   std::string clip;                         // glTF: the animation; empty for the first
 };
 
+// By the ending, in any case.
+bool is_gltf_file(const std::filesystem::path& path);
+bool is_capture_file(const std::filesystem::path& path);  // one that read_capture() takes
+
 // .bvh, .amc, .gltf, .glb, .vrm, .vrma (any case).
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source = {});
 

@@ -9,7 +9,6 @@
 #include "capture/canonical.h"
 #include "capture/gltf.h"
 #include "capture/segment.h"
-#include "capture/words.h"
 
 namespace ringcraft {
 namespace {
@@ -22,16 +21,6 @@ constexpr float kSameWithin = 0.01f;      // m
 constexpr float kSameTurn = radians(3);
 constexpr Tick kKeptForComparison = 60 * kTicksPerSecond;
 
-bool is_gltf(const fs::path& path) {
-  const std::string extension = lowered(path.extension().string());
-  return extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".vrma";
-}
-
-bool is_capture(const fs::path& path) {
-  const std::string extension = lowered(path.extension().string());
-  return extension == ".bvh" || extension == ".amc" || is_gltf(path);
-}
-
 Result<std::vector<fs::path>> captures_in(const fs::path& root) {
   std::error_code fault;
   if (fs::is_regular_file(root, fault)) return std::vector<fs::path>{root};
@@ -39,7 +28,7 @@ Result<std::vector<fs::path>> captures_in(const fs::path& root) {
   for (fs::recursive_directory_iterator it(root, fault), end; !fault && it != end;
        it.increment(fault)) {
     std::error_code ignored;
-    if (it->is_regular_file(ignored) && is_capture(it->path())) files.push_back(it->path());
+    if (it->is_regular_file(ignored) && is_capture_file(it->path())) files.push_back(it->path());
     if (files.size() > kMostFiles)
       return input_error(root.string(), "", fmt::format("more than {} captures", kMostFiles),
                          "name a smaller folder");
@@ -164,7 +153,7 @@ void add_clip(const fs::path& path, const std::string& clip_name, Result<RawClip
 }
 
 void add_capture(const fs::path& path, Collection& out) {
-  if (!is_gltf(path)) {
+  if (!is_gltf_file(path)) {
     add_clip(path, "", read_capture(path), out);
     return;
   }
