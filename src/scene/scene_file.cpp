@@ -58,6 +58,7 @@ Result<fs::path> existing_file(const std::string& name, const std::string& folde
   std::error_code failed;
   if (fs::exists(path, failed)) return path;
   if (failed) return input_error(name, "", failed.message(), "check the path and its permissions");
+  if (fs::is_regular_file(name, failed)) return fs::path(name);  // one without an ending
   return input_error(name, "", std::string("no such ") + what, remedy_for_name(name, folder));
 }
 
@@ -147,8 +148,10 @@ class Reader {
     const std::string place = document_.place("/library");
     const bool bare = name.find('/') == std::string::npos && fs::path(name).extension().empty();
     std::error_code failed;
-    const bool built = place == "--set" && fs::is_regular_file(name, failed);
-    scene_.library = bare && !built ? assets_folder() / name : base_of("/library") / name;
+    const bool here =
+        place == "--set" && (fs::is_regular_file(name, failed) ||
+                             fs::is_regular_file(fs::path(name) / "library.toml", failed));
+    scene_.library = bare && !here ? assets_folder() / name : base_of("/library") / name;
     if (fs::is_directory(scene_.library, failed) || fs::is_regular_file(scene_.library, failed)) {
       return {};
     }
