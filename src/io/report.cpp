@@ -83,7 +83,7 @@ double mean_distance(const Timeline& timeline, std::size_t fighter) {
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-// What a fighter launched of its own will, and which action most.
+// What a fighter launched of its own will, and which action most: not what it stands in at first.
 struct Launches {
   int count = 0;
   double per_second = 0, most_share = 0;
@@ -93,7 +93,8 @@ struct Launches {
 Launches launches_of(const FighterTrack& track) {
   std::map<std::string, int> by_name;
   Launches result;
-  for (const Segment& segment : track.segments) {
+  for (std::size_t i = 1; i < track.segments.size(); ++i) {
+    const Segment& segment = track.segments[i];
     if (segment.kind == Kind::response || segment.kind == Kind::get_up) continue;
     ++by_name[segment.name];
     ++result.count;

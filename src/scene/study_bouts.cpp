@@ -39,7 +39,8 @@ bool took_in(const Segment& feint, const FighterTrack& other) {
 void count_segments(const Timeline& timeline, BoutTally& tally) {
   for (std::size_t i = 0; i < 2; ++i) {
     SideTally& own = tally.side[i];
-    for (const Segment& segment : timeline.tracks[i].segments) {
+    const std::vector<Segment>& segments = timeline.tracks[i].segments;
+    for (const Segment& segment : segments) {
       const bool attack = segment.kind == Kind::attack || segment.kind == Kind::combination;
       own.attacks += attack ? 1 : 0;
       tally.side[1 - i].faced += attack ? 1 : 0;
@@ -47,7 +48,8 @@ void count_segments(const Timeline& timeline, BoutTally& tally) {
       own.steps += segment.kind == Kind::transition && !segment.feint ? 1 : 0;
       own.feints += segment.feint ? 1 : 0;
       own.taken_in += segment.feint && took_in(segment, timeline.tracks[1 - i]) ? 1 : 0;
-      if (segment.launch.forced) continue;
+      // Nobody chose the stance that the bout opens in.
+      if (segment.launch.forced || &segment == &segments.front()) continue;
       ++own.chosen;
       ++own.uses[segment.name];
     }

@@ -78,7 +78,7 @@ TEST(Report, SaysHowMuchAndHowVariedAFighterLaunches) {
   Timeline timeline = sample::timeline();
   FighterTrack& track = timeline.tracks[0];
   track.segments.clear();
-  for (const char* name : {"jab", "idle", "jab", "absorb"}) {
+  for (const char* name : {"opening", "jab", "idle", "jab", "absorb"}) {
     const bool answers = std::string(name) == "absorb";
     track.segments.push_back({Launch{}, name, answers ? Kind::response : Kind::attack});
   }

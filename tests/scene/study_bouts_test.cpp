@@ -161,6 +161,7 @@ TEST_F(StudyBoutsTest, MostUsedActionOfASideIsCountedOverAllBoutsOfItsPairing) {
     FightRecord record;
     record.timeline.tracks.resize(2);
     for (std::size_t i = 0; i < 2; ++i) {
+      record.timeline.tracks[i].segments.emplace_back().name = "opening";  // nobody chose it
       for (const std::string& name : i == 0 ? first : second) {
         Segment segment;
         segment.name = name;
