@@ -264,16 +264,18 @@ Study summary_of(const Batch& batch) {
   Study study;
   study.name = "batch";
   study.title = fmt::format("{}: {} bouts", batch.scene, batch.bouts.size());
-  study.said = {fmt::format("{} bouts of {}, seeds {} to {}", batch.bouts.size(), batch.scene,
-                            batch.bouts.empty() ? 0 : batch.bouts.begin()->first,
-                            batch.bouts.empty() ? 0 : batch.bouts.rbegin()->first)};
+  study.said = {fmt::format("{} bouts of {}", batch.bouts.size(), batch.scene)};
+  if (!batch.bouts.empty()) {
+    study.said.front() +=
+        fmt::format(", seeds {} to {}", batch.bouts.begin()->first, batch.bouts.rbegin()->first);
+  }
   study.table.columns = {"of", "measure", "bouts", "mean", "low", "high", "least", "most"};
   const Measures measures = measures_of(batch);
   for (const Measure& one : measures.all()) {
     const MeanInterval mean = mean_interval(one.values);
     const auto [least, most] = std::minmax_element(one.values.begin(), one.values.end());
     study.table.rows.push_back({one.of, one.name, static_cast<std::int64_t>(one.values.size()),
-                                mean.mean, mean.low, mean.high, *least, *most});
+                                mean.mean, cell_of(mean.low), cell_of(mean.high), *least, *most});
   }
   if (batch.bouts.empty()) return study;
   for (const char* name : {"strikes", "landed", "hits_taken", "knockdowns"})

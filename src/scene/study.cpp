@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -62,6 +63,10 @@ std::string html_table(const StudyTable& table) {
 }
 
 }  // namespace
+
+StudyCell cell_of(const std::optional<double>& number) {
+  return number.value_or(std::numeric_limits<double>::quiet_NaN());
+}
 
 std::string study_csv(const StudyTable& table) {
   std::string out;
@@ -151,12 +156,12 @@ Interval wilson(std::size_t wins, std::size_t of) {
 }
 
 MeanInterval mean_interval(const std::vector<double>& values) {
-  if (values.empty()) return {};
+  if (values.empty()) return {0, {}, {}};
   const auto n = static_cast<double>(values.size());
   double sum = 0, squares = 0;
   for (const double value : values) sum += value;
   const double mean = sum / n;
-  if (values.size() < 2) return {mean, mean, mean};
+  if (values.size() < 2) return {mean, {}, {}};
   for (const double value : values) squares += (value - mean) * (value - mean);
   // Student's t at 97.5 % for n - 1 degrees of freedom (Abramowitz & Stegun 26.7.5).
   constexpr double z = kZ975, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;

@@ -13,6 +13,9 @@ namespace ringcraft {
 
 using StudyCell = std::variant<std::string, double, std::int64_t>;
 
+// A number as a cell; an empty one where there is none (null in JSON).
+StudyCell cell_of(const std::optional<double>& number);
+
 struct StudyTable {
   std::vector<std::string> columns;          // with the unit: "penetration_p99_m"
   std::vector<std::vector<StudyCell>> rows;  // each as long as `columns`
@@ -68,10 +71,11 @@ struct Interval {
 };
 Interval wilson(std::size_t wins, std::size_t of);
 
-// Mean of values and its 95 % interval by Student's t (series, 1 % off from 4 values on); of one
-// value no interval is known.
+// Mean of values and its 95 % interval by Student's t (series, 1 % off from 4 values on); one value
+// has none.
 struct MeanInterval {
-  double mean = 0, low = 0, high = 0;
+  double mean = 0;
+  std::optional<double> low, high;
 };
 MeanInterval mean_interval(const std::vector<double>& values);
 

@@ -119,8 +119,8 @@ std::vector<StudyCell> row_of(const std::string& name, const Totals& sum) {
                              over(static_cast<double>(sum.draws), static_cast<double>(sum.bouts))};
   const MeanInterval lead = mean_interval(sum.leads);
   row.emplace_back(lead.mean);
-  row.emplace_back(lead.low);
-  row.emplace_back(lead.high);
+  row.push_back(cell_of(lead.low));
+  row.push_back(cell_of(lead.high));
   for (const SideTally& side : sum.side) {
     row.emplace_back(over(static_cast<double>(side.hits), minutes));
     row.emplace_back(over(side.damage, minutes));
@@ -268,7 +268,7 @@ std::vector<PairingResult> run_pairings(const MotionLibrary& library, const Scen
       result.bouts.push_back(slot.tally);
       result.decision_ms.push_back(slot.ms);
     }
-    results.push_back(std::move(result));
+    if (!result.bouts.empty()) results.push_back(std::move(result));
   }
   return results;
 }
@@ -332,7 +332,6 @@ void fill_bouts(Study& study, const std::vector<PairingResult>& results) {
                                  any ? quantile(results[p].decision_ms.front(), 0.5) : 0.0,
                                  any ? quantile(results[p].decision_ms.back(), 0.5) : 0.0,
                                  quantile(all, 0.5), quantile(all, 0.99)});
-    if (sum.bouts == 0) continue;
     const Interval share = wilson(sum.wins, sum.bouts);
     const auto x = static_cast<double>(p);
     study.charts[0].series[0].points.push_back(

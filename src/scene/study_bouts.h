@@ -71,7 +71,7 @@ struct PairingResult {
 };
 
 // Every bout is a task of its own; results do not depend on the number of threads. A bout that was
-// interrupted is not counted.
+// interrupted is not counted, and a pairing without bouts left out.
 std::vector<PairingResult> run_pairings(const MotionLibrary& library, const SceneFile& scene,
                                         const std::vector<Pairing>& pairings,
                                         const BoutSeries& series, const StudyRun& run);

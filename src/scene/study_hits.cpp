@@ -17,14 +17,15 @@ HitRows::HitRows() {
   table.columns = {"group", "what", "unit", "measured", "published", "bar", "holds"};
 }
 
-void HitRows::said(const std::string& what, const std::string& unit, double measured,
+void HitRows::said(const std::string& what, const std::string& unit, std::optional<double> measured,
                    const std::string& published) {
-  table.rows.push_back({group_, what, unit, measured, published, std::string(), std::string()});
+  table.rows.push_back(
+      {group_, what, unit, cell_of(measured), published, std::string(), std::string()});
 }
 
-void HitRows::held(const std::string& what, const std::string& unit, double measured,
+void HitRows::held(const std::string& what, const std::string& unit, std::optional<double> measured,
                    const std::string& published, const HitBar& bar) {
-  const bool holds = measured >= bar.low && measured <= bar.high;
+  const bool holds = measured && *measured >= bar.low && *measured <= bar.high;
   std::string text;
   if (std::isinf(bar.low)) {
     text = fmt::format("<= {:.4g}", bar.high);
@@ -33,9 +34,11 @@ void HitRows::held(const std::string& what, const std::string& unit, double meas
   } else {
     text = fmt::format("{:.4g} .. {:.4g}", bar.low, bar.high);
   }
-  missed += holds ? 0 : 1;
-  table.rows.push_back(
-      {group_, what, unit, measured, published, text, std::string(holds ? "yes" : "NO")});
+  missed += measured && !holds ? 1 : 0;
+  table.rows.push_back({group_, what, unit, cell_of(measured), published, text,
+                        std::string(!measured ? ""
+                                    : holds   ? "yes"
+                                              : "NO")});
 }
 
 StillHit::StillHit(const BodyModel& body, const Pose& pose, Part part, float way, float impulse,

@@ -225,8 +225,15 @@ std::vector<Answered> answers_of(const HitsAsked& asked, const char* purpose, fl
   return all;
 }
 
-double share(std::size_t part, std::size_t all) {
-  return all == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all);
+// Percent; nothing of nothing.
+std::optional<double> share(std::size_t part, std::size_t all) {
+  if (all == 0) return std::nullopt;
+  return 100 * static_cast<double>(part) / static_cast<double>(all);
+}
+
+std::optional<double> quantile_of(const std::vector<double>& values, double share) {
+  if (values.empty()) return std::nullopt;
+  return quantile(values, share);
 }
 
 // How the shown body differs from the undisturbed one after the hit.
@@ -277,7 +284,7 @@ void seen_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
   rows.held(fmt::format("hips go within 30 degrees of the impulse in 0.4 s, {} steps and falls",
                         off.size()),
             "%", share(within, off.size()), "a wrong one is accepted less", at_least(90));
-  rows.said("hips off the impulse, median", "deg", quantile(off, .5), "");
+  rows.said("hips off the impulse, median", "deg", quantile_of(off, .5), "");
 }
 
 // Of all hits that are answered by steps.
@@ -382,7 +389,7 @@ void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitR
     up += a.falls && !a.knocked_out && a.got_up ? 1 : 0;
   }
   rows.held(fmt::format("feet slide under a body that stays up, worst of {}", skate.size()), "",
-            quantile(skate, 1), "0.000-0.005 real boxing", at_most(.02));
+            quantile_of(skate, 1), "0.000-0.005 real boxing", at_most(.02));
   say_worst(
       asked.run, std::move(stood), [](const Answered& a) { return a.skate; },
       [](const Answered& a) { return fmt::format("feet slide, {:.3f}", a.skate); });

@@ -2,6 +2,7 @@
 // The rows of the hits study, and its parts.
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "scene/single_hit.h"
@@ -26,9 +27,10 @@ class HitRows {
  public:
   HitRows();
   void group(const std::string& name) { group_ = name; }
-  void said(const std::string& what, const std::string& unit, double measured,
+  // Where nothing was measured a row has no value, and no verdict.
+  void said(const std::string& what, const std::string& unit, std::optional<double> measured,
             const std::string& published);
-  void held(const std::string& what, const std::string& unit, double measured,
+  void held(const std::string& what, const std::string& unit, std::optional<double> measured,
             const std::string& published, const HitBar& bar);
 
   StudyTable table;

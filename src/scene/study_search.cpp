@@ -107,6 +107,7 @@ Timed timed(const MotionLibrary& library, const SceneFile& scene,
 void add_timing(StudyTable& table, const std::string& pass, const Timed& found, bool parts) {
   const auto row = [&](const std::string& part, const std::vector<double>& ms,
                        const std::vector<double>& us) {
+    if (ms.empty()) return;  // interrupted before
     table.rows.push_back(
         {pass, part, quantile(ms, 0.5), quantile(ms, 0.99), quantile(us, 0.5), quantile(us, 0.99)});
   };
@@ -218,19 +219,24 @@ Study search_study(const MotionLibrary& library, const SceneFile& scene, const S
                          "same_value"};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Visited& one = visited[i];
+    if (one.leaves.empty()) continue;
     study.table.rows.push_back({all[i].name, static_cast<std::int64_t>(one.leaves.size()),
                                 quantile(one.leaves, 0.5), quantile(one.nodes, 0.5),
                                 quantile(one.over_minimal, 0.5), quantile(one.over_proof, 0.5),
                                 quantile(one.effective, 0.5), one.same_value});
   }
   study.interrupted = run.stopped();
-  study.said = {fmt::format(
-      "{} decisions of {} bouts, seeds from {} on; library {} ({} actions, mean length {:.2f} s). "
-      "Trees, medians: {:.2f} children a decision, "
-      "{:.2f} decisions deep, {:.0f} leaves; minimal tree {:.0f} leaves ({} dives each).",
-      branching.size(), bouts.size(), scene.seed, library.name(), library.actions().size(),
-      mean_choice_seconds(library), quantile(branching, 0.5), quantile(depth, 0.5),
-      quantile(whole, 0.5), quantile(minimal, 0.5), search.dives)};
+  study.said = {
+      fmt::format("{} decisions of {} bouts, seeds from {} on; library {} ({} actions, mean "
+                  "length {:.2f} s).",
+                  branching.size(), bouts.size(), scene.seed, library.name(),
+                  library.actions().size(), mean_choice_seconds(library))};
+  if (branching.empty()) return study;
+  study.said.front() += fmt::format(
+      " Trees, medians: {:.2f} children a decision, {:.2f} decisions deep, {:.0f} leaves; minimal "
+      "tree {:.0f} leaves ({} dives each).",
+      quantile(branching, 0.5), quantile(depth, 0.5), quantile(whole, 0.5), quantile(minimal, 0.5),
+      search.dives);
   return study;
 }
 

@@ -1,4 +1,5 @@
 // The rows of the hits study: a figure that is broken misses its bar.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -33,6 +34,13 @@ TEST(HitRows, WhatIsNotANumberMissesEveryBar) {
   const double broken = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(holds(broken, at_most(1.5)));
   EXPECT_FALSE(holds(broken, at_least(95)));
+}
+
+TEST(HitRows, WhatWasNotMeasuredHasNeitherValueNorVerdict) {
+  HitRows rows;
+  rows.held("share of none", "%", std::nullopt, "", at_least(90));
+  EXPECT_EQ(rows.missed, 0);
+  EXPECT_THAT(study_csv(rows.table), ::testing::HasSubstr("share of none,%,,,>= 90,\n"));
 }
 
 TEST(HitRows, WhatIsOnlySaidMissesNothing) {

@@ -72,6 +72,15 @@ TEST(StudyTest, PictureHasEveryPointAndEveryInterval) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(StudyTest, OneValueHasNoInterval) {
+  const MeanInterval one = mean_interval({3});
+  EXPECT_EQ(one.mean, 3);
+  EXPECT_FALSE(one.low || one.high);
+  const StudyTable table{{"mean", "low"}, {{one.mean, cell_of(one.low)}}};
+  EXPECT_EQ(study_csv(table), "mean,low\n3,\n");
+  EXPECT_TRUE(mean_interval({3, 4}).low && mean_interval({3, 4}).high);
+}
+
 TEST(StudyTest, WilsonsIntervalHasThePublishedValues) {
   // Newcombe 1998, table I, method 3: 81 of 263, 15 of 148, 0 of 20, 1 of 29.
   const auto near = [](Interval of, double low, double high) {
