@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 // Debian's toml++ 3.3 meets some faulty inputs with a failed assertion ("[[[a]]]": issue 301 of
@@ -190,11 +191,22 @@ Result<json> read_schema(const std::string& schema) {
   return value;
 }
 
+// Whether a text is a number, be it one that TOML has no form for: 010, .5, 1e999.
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end == text.c_str() + text.size() && text.find_first_of("0123456789") != std::string::npos;
+}
+
 // The value of --set: TOML, or the text itself where it is a bare word.
 Result<json> set_text(const std::string& text, const std::string& assignment) {
   if (text.find_first_of("\n\r") == std::string::npos) {
     const auto document = parse("value = " + text + "\n", "--set");
     if (document && document->value.size() == 1) return document->value["value"];
+    if (!document && is_number(text)) {
+      return usage_error("--set " + assignment, "", document.error().what,
+                         "write a number as 7 or 0.5, or text in quotes");
+    }
     const bool bare = !text.empty() && std::string("\"'[{").find(text[0]) == std::string::npos;
     const bool has_sign = text.starts_with('+') || text.starts_with('-');
     const std::string word = text.substr(has_sign ? 1 : 0);

@@ -277,9 +277,23 @@ class Checker {
                     const std::string& name) {
     const bool empty = schema.contains("minLength") && value.size() < schema["minLength"];
     const auto pattern = schema.find("pattern");
+    const auto most = schema.find("maxLength");
+    const auto length = static_cast<std::size_t>(
+        std::count_if(value.begin(), value.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    if (most != schema.end() && length > most->get<std::size_t>()) {
+      add(FaultKind::other, pointer,
+          fmt::format("{} has {} characters, at most {} are allowed", name, length, most->dump()),
+          "shorten it");
+      return;
+    }
+    if (pattern != schema.end() && value.size() > kLongestMatched) {
+      add(FaultKind::other, pointer,
+          fmt::format("{} is {} bytes long, more than {}", name, value.size(), kLongestMatched),
+          "shorten it");
+      return;
+    }
     const bool wrong = pattern != schema.end() &&
-                       (value.size() > kLongestMatched ||
-                        !std::regex_search(value, std::regex(pattern->get<std::string>())));
+                       !std::regex_search(value, std::regex(pattern->get<std::string>()));
     if (empty || wrong) {
       std::string remedy = remedy_for(schema);
       if (wrong) remedy += " that matches " + pattern->get<std::string>();

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 constexpr const char* kSchema = R"({
   "type": "object", "additionalProperties": false, "required": ["name"],
   "properties": {
-    "name": {"type": "string", "minLength": 1},
+    "name": {"type": "string", "minLength": 1, "maxLength": 400},
     "horizon_s": {"type": "number", "exclusiveMinimum": 0, "maximum": 5,
                   "description": "planning horizon in seconds"},
     "rounds": {"type": "integer", "minimum": 1},
@@ -143,6 +143,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "'colour.2' is a string", "write a number"},
         BadInput{"WrongPattern", "name = \"a\"\ncolour = \"red\"\n", "line 2",
                  "'colour' is \"red\"", "#[0-9a-f]"},
+        BadInput{"TooLong", "name = \"a\"\ncolour = \"" + repeated("#", 600) + "\"\n", "line 2",
+                 "'colour' is 600 bytes long", "shorten it"},
+        BadInput{"TooLongAName", "name = \"" + repeated("\u00e4", 401) + "\"\n", "line 1",
+                 "'name' has 401 characters, at most 400", "shorten it"},
         BadInput{"EmptyName", "name = \"\"\n", "line 1", "'name' is \"\"", "write a string"},
         BadInput{"WrongMapValue", "name = \"a\"\n[liked]\n\"1/2 ~\" = true\n", "line 3",
                  "'liked.1/2 ~' is a boolean", "write a number"},
@@ -310,11 +314,29 @@ TEST_F(SetValueTest, AFaultInASetValueNamesSet) {
 
 TEST_F(SetValueTest, RefusesWhatIsNoAssignmentAndLeavesTheDocumentAlone) {
   const Document before = document_;
-  for (const std::string assignment :
-       {"", "=", "=1", "horizon_s", "horizon_s=", "horizon_s=nan", "horizon_s=-inf",
-        "horizon_s=\"open", "horizon_s=[1", "horizon_s=1\nrounds=2", "fighter.5.style=a",
-        "fighter.x.style=a", "fighter.-1.style=a", "fighter.99999999999.style=a", "name.first=a",
-        "name=\xff", "fighter..style=a", ".name=a", "name.=a"}) {
+  for (const std::string assignment : {"",
+                                       "=",
+                                       "=1",
+                                       "horizon_s",
+                                       "horizon_s=",
+                                       "horizon_s=nan",
+                                       "horizon_s=-inf",
+                                       "horizon_s=\"open",
+                                       "horizon_s=[1",
+                                       "horizon_s=1\nrounds=2",
+                                       "fighter.5.style=a",
+                                       "fighter.x.style=a",
+                                       "fighter.-1.style=a",
+                                       "fighter.99999999999.style=a",
+                                       "name.first=a",
+                                       "rounds=99999999999999999999",
+                                       "rounds=010",
+                                       "horizon_s=.5",
+                                       "horizon_s=1e999",
+                                       "name=\xff",
+                                       "fighter..style=a",
+                                       ".name=a",
+                                       "name.=a"}) {
     const auto set = set_value(document_, assignment);
     ASSERT_FALSE(set) << assignment;
     EXPECT_EQ(set.error().kind, ErrorKind::usage);
