@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -196,6 +197,13 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   if (!folder) return fail(folder.error());
   const auto library = library_for_blows(hit.library);
   if (!library) return fail(library.error());
+  for (const auto& [option, name] :
+       {std::pair("--pose", query->action), std::pair("--strike", query->strike)}) {
+    if (name.empty() || library->find(name).valid()) continue;
+    return fail({ErrorKind::usage, "", option,
+                 fmt::format("no action '{}' in library {}", name, library->name()),
+                 meant_action(*library, name) + "`ringcraft library inspect` lists them"});
+  }
   if (!hit.sweep.empty()) return run_sweep(*library, *query, hit, options, *folder);
   if (const auto page = page_template(); !page) return fail(page.error());
   const auto answer = simulate_hit(*library, *query);

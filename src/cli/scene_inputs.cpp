@@ -57,6 +57,14 @@ Result<MotionLibrary> library_for_blows(const std::filesystem::path& library) {
                      "give it actions of kind 'response'; `ringcraft library check` says which");
 }
 
+std::string meant_action(const MotionLibrary& library, const std::string& name) {
+  std::vector<std::string> known;
+  known.reserve(library.actions().size());
+  for (const Action& action : library.actions()) known.push_back(action.name);
+  const std::string near = nearest_word(name, known);
+  return near.empty() ? "" : fmt::format("did you mean '{}'? ", near);
+}
+
 Result<MotionLibrary> library_of(const SceneFile& scene) {
   return library_of(scene, scene.library);
 }

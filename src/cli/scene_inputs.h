@@ -20,6 +20,9 @@ std::vector<std::filesystem::path> files_of(const SceneFile& scene);
 // A library in which who is struck finds an answer.
 Result<MotionLibrary> library_for_blows(const std::filesystem::path& library);
 
+// "did you mean 'cross'? " where the library has an action of nearly that name, else "".
+std::string meant_action(const MotionLibrary& library, const std::string& name);
+
 // The scene's library, as its fighters need it (library_for).
 Result<MotionLibrary> library_of(const SceneFile& scene);
 // Another library for the same fighters.

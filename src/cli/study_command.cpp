@@ -88,7 +88,8 @@ Result<Action> motion_of(const std::string& name, const MotionLibrary& library) 
     const ActionId id = library.find(name);
     if (id.valid()) return library.action(id);
     return usage_error(name, "", "the library has no such action",
-                       "`ringcraft library inspect` lists them; a capture needs its extension");
+                       meant_action(library, name) +
+                           "`ringcraft library inspect` lists them; a capture needs its extension");
   }
   const auto read = read_canonical(name, library.skeleton());
   if (!read) return tl::unexpected(read.error());
@@ -170,7 +171,8 @@ Result<void> check_sets(const std::vector<std::string>& sets) {
     const std::string what = of_the_two ? key.substr(10, key.find('.', 10) - 10) : "";
     const auto own = {"style", "horizon_s", "team", "position", "yaw_deg"};
     if (of_the_two && std::find(own.begin(), own.end(), what) == own.end()) continue;
-    return usage_error("--set " + key, "", "of no effect: every bout says itself who meets and where",
+    return usage_error("--set " + key, "",
+                       "of no effect: every bout says itself who meets and where",
                        "give styles or horizons as --pairings; fighter.0 and fighter.1 take body, "
                        "health and stance");
   }
