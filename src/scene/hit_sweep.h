@@ -47,7 +47,8 @@ struct SweepOptions {
 
 // Every point of the ranges. What no range varies is as in the query; its impulse is taken as size,
 // direction over the ground and steepness, which no range varies. What would not interrupt the body
-// (physics/response.h) is absorbed. A usage error where an axis stands twice or the points are too many.
+// (physics/response.h) is absorbed. A usage error where an axis stands twice or the points are too
+// many.
 Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
                             std::vector<SweepRange> ranges, const SweepOptions& options = {});
 
