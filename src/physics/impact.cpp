@@ -45,24 +45,33 @@ Vec3 extrapolated_of(const BodyModel& body, const Ragdoll& ragdoll, float turnin
          turning * shed_by_turning(ragdoll.angular_momentum(), body.spec.mass, rate);
 }
 
+// The same ragdoll after the 100 ms, without the blow.
+struct Undisturbed {
+  Ragdoll ragdoll;
+  Balance balance;
+
+  Undisturbed(const BodyModel& body, const ImpactFrame& frame, const Tone& tone)
+      : ragdoll(body, frame.pose(), frame.before(), kTickSeconds), balance(body, frame) {
+    ragdoll.set_tone(tone);
+    for (int k = 0; k < kImpulseSteps; ++k) {
+      balance.guide(ragdoll, frame, k);
+      ragdoll.step();
+    }
+  }
+};
+
 // What the interrupted action itself does: how far it carries the extrapolated centre of mass out
 // of its base: a body in motion leans where it was going to set its foot, and what counts is what
 // the blow adds. Found by the same ragdoll without the blow; nothing for a body that stands well
 // over its feet.
 OwnMotion carried_by_the_action(const BodyModel& body, const ImpactFrame& frame, const Tone& tone,
                                 const Base& base) {
-  Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
-  undisturbed.set_tone(tone);
-  Balance balance(body, frame);
-  for (int k = 0; k < kImpulseSteps; ++k) {
-    balance.guide(undisturbed, frame, k);
-    undisturbed.step();
-  }
+  const Undisturbed own(body, frame, tone);
   const auto carried = [&](float turning) {
-    const Vec3 own = extrapolated_of(body, undisturbed, turning);
-    return own - steadied(base, own);
+    const Vec3 xi = extrapolated_of(body, own.ragdoll, turning);
+    return xi - steadied(base, xi);
   };
-  return {{carried(.5f), carried(1)}, strayed_feet(body, frame, undisturbed)};
+  return {{carried(.5f), carried(1)}, strayed_feet(body, frame, own.ragdoll)};
 }
 
 std::array<Vec3, 3> moved(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll) {
@@ -160,11 +169,10 @@ bool stands(const BodyModel& body, const ImpactFrame& frame) {
 constexpr float kDoubt = .03f, kClear = .04f;
 constexpr int kWatchedAtOnce = 24, kMostWatched = 96;  // of 1/240 s
 
-// Whether the body, watched on from step `k` on, keeps its balance.
-bool holds(const BodyModel& body, const ImpactFrame& frame, int k, Ragdoll& ragdoll,
-           Balance& balance) {
+// Whether the body, watched on from `kImpulseSteps` on, keeps its balance.
+bool holds(const BodyModel& body, const ImpactFrame& frame, Ragdoll& ragdoll, Balance& balance) {
   float beyond = 0;
-  while (k < kMostWatched) {
+  for (int k = kImpulseSteps; k < kMostWatched;) {
     for (const int until = k + kWatchedAtOnce; k < until; ++k) {
       balance.guide(ragdoll, frame, k);
       ragdoll.step();
@@ -178,14 +186,8 @@ bool holds(const BodyModel& body, const ImpactFrame& frame, int k, Ragdoll& ragd
 
 // Whether it would without the blow: held at the last pose that is known, some do not.
 bool holds_by_itself(const BodyModel& body, const ImpactFrame& frame, const Tone& tone) {
-  Ragdoll undisturbed(body, frame.pose(), frame.before(), kTickSeconds);
-  undisturbed.set_tone(tone);
-  Balance balance(body, frame);
-  for (int k = 0; k < kImpulseSteps; ++k) {
-    balance.guide(undisturbed, frame, k);
-    undisturbed.step();
-  }
-  return holds(body, frame, kImpulseSteps, undisturbed, balance);
+  Undisturbed own(body, frame, tone);
+  return holds(body, frame, own.ragdoll, own.balance);
 }
 
 // How far, m, the kick has moved the foot beyond what still is no sweep; below 0 where it is none.
@@ -232,9 +234,10 @@ bool is_toppled(const BodyModel& body, const ImpactFrame& frame, const Tone& ton
   return sunk < height_at_landing(frame, undisturbed, own, 0) - kByTheBlow * height;
 }
 
+constexpr float kHeels = .3f;  // of the leg's length: as high are hips that sit on them
+
 // Whether the body sits down: hips that drop so fast that legs which brake as hard as they can,
 // with a good two body weights, stop them no sooner than on the heels.
-constexpr float kHeels = .3f;  // of the leg's length: as high are hips that sit on them
 bool sits_down(const BodyModel& body, const Ragdoll& ragdoll) {
   constexpr float kLegsBrake = 12;  // m/s2, beyond gravity
   const PartMotion hips = ragdoll.motion(Part::pelvis);
@@ -293,7 +296,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
   const float swept = swept_by(body, frame, ragdoll);
   if (swept <= 0 && std::abs(beyond.distance) < kDoubt && stands(body, frame)) {
     constexpr float kJustNot = .001f;  // m
-    if (holds(body, frame, kImpulseSteps, ragdoll, balance)) {
+    if (holds(body, frame, ragdoll, balance)) {
       beyond.distance = std::min(beyond.distance, 0.0f);
     } else if (holds_by_itself(body, frame, struck_tone(input.tone))) {
       beyond.distance = std::max(beyond.distance, kJustNot);

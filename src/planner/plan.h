@@ -77,11 +77,11 @@ class Planner {
   ~Planner();
 
   // The decision of `fighter`, who acts now, against its opponent; the others are obstacles, and
-  // one of them may reply. An
-  // opponent's feint that cannot be told from its attack yet is taken for the attack.
-  // `last_contact` is the tick of the fight's last contact (0 where there was none): boredom counts
-  // from it. Where nobody is to be fought, the launch is of the first action that may follow, or
-  // the last one held for 0.5 s more where none may, and the record is empty.
+  // one of those that fight it may reply (PlanSettings::replies). An opponent's feint that cannot
+  // be told from its attack yet is taken for the attack. `last_contact` is the tick of the fight's
+  // last contact (0 where there was none): boredom counts from it. Where nobody is to be fought,
+  // the launch is of the first action that may follow, or the last one held for 0.5 s more where
+  // none may, and the record is empty.
   Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
 
   // The same in a game's loop: looks ahead as far as the limits allow, in steps, and keeps the last
