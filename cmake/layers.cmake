@@ -17,9 +17,12 @@ find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 find_package(tomlplusplus QUIET)
 
-# For our own code only; what stands in ringcraft_flags is for whoever includes our headers, too:
+# For our own code only, and errors only where we build it ourselves; what stands in ringcraft_flags is for whoever includes our headers, too:
 # the linker keeps one copy of an inline function, and that may be the user's.
-add_compile_options(-Wall -Wextra -Wconversion -Wno-sign-conversion -Werror)
+add_compile_options(-Wall -Wextra -Wconversion -Wno-sign-conversion)
+if(PROJECT_IS_TOP_LEVEL)
+  add_compile_options(-Werror)
+endif()
 add_library(ringcraft_flags INTERFACE)
 target_include_directories(ringcraft_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_features(ringcraft_flags INTERFACE cxx_std_20)

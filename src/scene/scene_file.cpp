@@ -91,7 +91,9 @@ class Reader {
   Result<SceneFile> read() {
     scene_.path = document_.path;
     scene_.files.push_back(scene_.path);
-    scene_.name = value_.value("name", clean_name(document_.path.stem().string()));
+    const std::string stem = clean_name(document_.path.stem().string());
+    const bool dots = stem.find_first_not_of('.') == std::string::npos;  // no name for a folder
+    scene_.name = value_.value("name", dots ? "scene" : stem);
     scene_.duration = std::max<Tick>(1, ticks(value_["duration_s"].get<double>()));
     scene_.seed = value_.value("seed", scene_.seed);
     scene_.ring = value_.value("ring_m", scene_.ring);

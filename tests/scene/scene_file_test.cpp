@@ -57,6 +57,14 @@ TEST_F(SceneFileTest, ANameFromAFileNameIsUtf8) {
   EXPECT_EQ(scene->name, "n\u00ff");
 }
 
+TEST_F(SceneFileTest, AFileNameOfDotsIsNoName) {
+  const auto path = folder_.path() / "...toml";
+  ASSERT_TRUE(write_file(path, kHead + fighter("a", "[0, -1]") + fighter("b", "[0, 1]")));
+  const auto scene = read_scene(path.string());
+  ASSERT_TRUE(scene) << to_string(scene.error());
+  EXPECT_EQ(scene->name, "scene");
+}
+
 TEST_F(SceneFileTest, SettlesWhatTheFightLoopNeeds) {
   const auto scene = read(std::string(kHead) + "seed = 7\nring_m = 8\n" +
                           fighter("a", "[0, -1]", "horizon_s = 1.25\nhealth = 12.5\n") +
