@@ -186,14 +186,6 @@ class Duel {
     return static_cast<std::uint32_t>(move.action.value) * 2 + move.side;
   }
 
-  // What is answered: the action that the other side has in flight, and the own one that ends.
-  std::uint32_t context(const Node& node) const {
-    const auto next = static_cast<std::size_t>(next_side(node));
-    const auto own = static_cast<std::uint32_t>(node.side[next].flight.launch.action.value);
-    const auto other = static_cast<std::uint32_t>(node.side[1 - next].flight.launch.action.value);
-    return (other * 31 + own) * 2 + static_cast<std::uint32_t>(next);
-  }
-
   const DuelCounts& counts() const { return counts_; }
   void count(const DuelCounts& counts) { counts_ += counts; }
   void record_into(std::vector<DuelEvent>* events) { events_ = events; }

@@ -147,17 +147,9 @@ class RootSearch {
     }
     Search<G>& search = *memory_of(one.game, one.move).search;
     search.set_node_limit(limit);
-    const bool scouts = settings_.null_window && alpha > kWorst;
-    one.value = search.run(one.game, one.child.node, alpha, scouts ? alpha + 1 : kBest, one.line);
+    one.value = search.run(one.game, one.child.node, alpha, kBest, one.line);
     one.counts = search.counts();
     one.exact = one.value > alpha;
-    if (!scouts || !one.exact || search.aborted()) return !search.aborted();
-    if (limit != 0) {
-      if (one.counts.nodes >= limit) return false;
-      search.set_node_limit(limit - one.counts.nodes);
-    }
-    one.value = search.run(one.game, one.child.node, alpha, kBest, one.line);
-    one.counts += search.counts();
     return !search.aborted();
   }
 

@@ -66,7 +66,6 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
   { game.key(move) } -> std::same_as<std::uint32_t>;
 };
 // And, if it likes:
-// - context(node), what a move is an answer to, as a number;
 // - range(node), between what the value of a node must lie, known without looking below it;
 // - step(node, move) and check(node, move, child), which together are apply(): the part of a fault
 //   that costs much is added by check(), and is not asked for where the child cannot matter;
@@ -192,7 +191,6 @@ class Search {
     for (const auto& one : levels_) one->killers = {kNoMove, kNoMove};
     history_ = {};
     history_most_ = {};
-    answers_.assign(kContexts, {kNoMove, kNoMove});
     forget_tree();
     root_ = {};
   }
@@ -469,8 +467,7 @@ class Search {
       ++counts_.leaves;
       return {game.value(node), kNoMove};
     }
-    const std::size_t context = context_of(game, node);
-    order(game, here, spot, actor, first, context);
+    order(game, here, spot, actor, first);
     const bool max = actor == Actor::maximizer;
     Found found{max ? kWorst : kBest, kNoMove};
     bool any = false;
@@ -479,16 +476,7 @@ class Search {
     // True when the window is closed and the rest need not be looked at.
     const auto weigh = [&](Edge& edge) {
       const Node& child = edge.child.node;
-      std::int32_t value = 0;
-      const bool scouts =
-          settings_.null_window && found.best != kNoMove && beta - std::int64_t{1} > alpha;
-      const auto look = [&](std::int32_t low, std::int32_t high) {
-        value = visit(game, child, low, high, depth + 1, edge.below, here.line);
-      };
-      if (scouts) {  // first only whether it is better than the best so far
-        max ? look(alpha, alpha + 1) : look(beta - 1, beta);
-      }
-      if (!scouts || (!aborted_ && value > alpha && value < beta)) look(alpha, beta);
+      const std::int32_t value = visit(game, child, alpha, beta, depth + 1, edge.below, here.line);
       if (aborted_) return true;
       if (max ? value > found.value : value < found.value) {
         found = {value, game.key(edge.move)};
@@ -520,7 +508,7 @@ class Search {
       }
       any = true;
       if (weigh(edge)) {
-        if (!aborted_) note_cutoff(here, actor, game.key(edge.move), context);
+        if (!aborted_) note_cutoff(here, actor, game.key(edge.move));
         return found;
       }
     }
@@ -530,8 +518,7 @@ class Search {
 
   // Table move, killers, then the game's own order, in which history moves a candidate up by at
   // most two places. Stable: the same moves in the same state always come in the same order.
-  void order(G& game, Level& here, const Spot& spot, Actor actor, std::uint32_t first,
-             std::size_t context) {
+  void order(G& game, Level& here, const Spot& spot, Actor actor, std::uint32_t first) {
     const CostSpan span(settings_.cost, CostPart::ordering);
     std::vector<Rank>& ranks = ranks_;
     ranks.clear();
@@ -542,9 +529,6 @@ class Search {
       std::int64_t place = static_cast<std::int64_t>(settings_.own_order ? i : key) * 1024;
       if (settings_.history && key < history.size()) {
         place -= static_cast<std::int64_t>(2048 * history[key] / (most + 1));
-      }
-      if (settings_.answers && (key == answers_[context][0] || key == answers_[context][1])) {
-        place -= 1 << 20;
       }
       if (settings_.killers && (key == here.killers[0] || key == here.killers[1])) place -= 1 << 20;
       if (key == first) place -= 1 << 21;
@@ -559,25 +543,12 @@ class Search {
     for (const Rank& rank : ranks) here.order.push_back(rank.index);
   }
 
-  void note_cutoff(Level& here, Actor actor, std::uint32_t key, std::size_t context) {
-    auto& answers = answers_[context];
-    if (answers[0] != key) answers = {key, answers[0]};
+  void note_cutoff(Level& here, Actor actor, std::uint32_t key) {
     if (here.killers[0] != key) here.killers = {key, here.killers[0]};
     const std::size_t side = actor == Actor::maximizer ? 0 : 1;
     if (history_[side].size() <= key) history_[side].resize(key + 1);
     history_most_[side] = std::max(history_most_[side], ++history_[side][key]);
   }
-
-  // What a move answers, where the game says so: the same number for the same thing.
-  static std::size_t context_of(G& game, const Node& node) {
-    if constexpr (requires { game.context(node); }) {
-      return static_cast<std::size_t>(game.context(node)) % kContexts;
-    } else {
-      return 0;
-    }
-  }
-
-  static constexpr std::size_t kContexts = 1024;
 
   struct Rank {
     std::int64_t place;
@@ -593,7 +564,6 @@ class Search {
   std::vector<std::unique_ptr<Level>> levels_;
   std::array<std::vector<std::uint64_t>, 2> history_;
   std::array<std::uint64_t, 2> history_most_{};
-  std::vector<std::array<std::uint32_t, 2>> answers_;
   std::vector<Rank> ranks_;  // of order()
   std::vector<Move> moves_;  // of expand()
   Arena<Edge> edges_;        // the tree that was walked

@@ -125,9 +125,10 @@ struct Variant {
 
 std::vector<Variant> settings() {
   constexpr std::pair<const char*, bool SearchDevices::*> kDevices[] = {
-      {"own order", &SearchDevices::own_order}, {"table", &SearchDevices::table},
-      {"killers", &SearchDevices::killers},     {"history", &SearchDevices::history},
-      {"answers", &SearchDevices::answers},     {"null window", &SearchDevices::null_window}};
+      {"own order", &SearchDevices::own_order},
+      {"table", &SearchDevices::table},
+      {"killers", &SearchDevices::killers},
+      {"history", &SearchDevices::history}};
   std::vector<Variant> all{{"all", {}}};
   all.reserve(16);
   for (const auto& [name, which] : kDevices) {
