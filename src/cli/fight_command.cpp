@@ -92,10 +92,14 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) tell("\n");
 
+  std::error_code failed;
+  const bool fought_before = std::filesystem::is_regular_file(*folder / "report.json", failed);
   const auto summary =
       write_fight(*folder, *scene, *library, record, wall.count(), options.threads, extras);
   if (!summary) return fail(summary.error());
-  remove_old_exports(*folder, scene->fighters.size(), extras, files_of(*scene));
+  if (fought_before) {  // else such files are somebody's own
+    remove_old_exports(*folder, scene->fighters.size(), extras, files_of(*scene));
+  }
   const std::string& said = options.json ? summary->report : summary->text;
   if (options.summary_to_stderr) {
     tell("{}\n", said);
