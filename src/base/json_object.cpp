@@ -1,18 +1,25 @@
 #include "base/json_object.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace ringcraft {
+namespace {
+
+bool is_deeper(const nlohmann::json& value, int levels) {
+  if (!value.is_structured() || value.empty()) return false;
+  return levels == 0 || std::any_of(value.begin(), value.end(), [&](const nlohmann::json& element) {
+           return is_deeper(element, levels - 1);
+         });
+}
+
+}  // namespace
 
 std::optional<nlohmann::json> json_object(std::string_view text, std::string& why) {
-  using Json = nlohmann::json;
-  bool too_deep = false;
-  const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-    too_deep = too_deep || depth > kDeepestJson;
-    return !too_deep;
-  };
-  Json json = Json::parse(text, shallow, false);
-  if (too_deep) {
+  // Not with a filter: nlohmann's looks through an array again at each of its objects.
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (is_deeper(json, kDeepestJson)) {
     why = fmt::format("JSON nested deeper than {}", kDeepestJson);
     return std::nullopt;
   }

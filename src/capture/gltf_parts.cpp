@@ -18,6 +18,8 @@ using Json = nlohmann::json;
 
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongestJson = std::size_t{16} << 20;  // bytes
+constexpr std::size_t kMostNodes = 16384;
+constexpr std::size_t kMostClips = 4096;
 constexpr const char* kExportAgain = "export the file again";
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
@@ -88,6 +90,39 @@ Result<void> few_bytes(const Json& json, const std::string& file) {
   return {};
 }
 
+// tinygltf makes much of each.
+Result<void> few_parts(const Json& json, const std::string& file) {
+  const auto count = [&](const char* key) {
+    const Json* list = member(json, key);
+    return list == nullptr ? 0 : list->size();
+  };
+  if (count("nodes") > kMostNodes)
+    return input_error(file, "/nodes", fmt::format("more than {} nodes", kMostNodes), kExportAgain);
+  if (count("animations") > kMostClips)
+    return input_error(file, "/animations", fmt::format("more than {} clips", kMostClips),
+                       "export fewer of them in one file");
+  return {};
+}
+
+// Takes out what is not kept; false where the rest is nested too deep. `depth`: that of what stands
+// in `value`.
+bool keep_only(Json& value, int depth, GltfKeyFilter kept) {
+  if (!value.is_structured() || value.empty()) return true;
+  if (depth > kDeepest) return false;
+  if (value.is_array())
+    return std::all_of(value.begin(), value.end(),
+                       [&](Json& element) { return keep_only(element, depth + 1, kept); });
+  for (auto at = value.begin(); at != value.end();) {
+    if (!kept(depth, at.key())) {
+      at = value.erase(at);
+      continue;
+    }
+    if (!keep_only(*at, depth + 1, kept)) return false;
+    ++at;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<GltfChunks> gltf_chunks(std::string_view bytes, const std::string& file) {
@@ -120,17 +155,10 @@ Result<Json> gltf_json(std::string_view text, const std::string& file, GltfKeyFi
   if (text.size() > kLongestJson)
     return input_error(file, "", fmt::format("{} bytes of JSON are more than is read", text.size()),
                        "give a smaller file");
-  bool too_deep = false;
-  const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kDeepest) {
-      too_deep = true;
-      return false;
-    }
-    return event != Json::parse_event_t::key || kept(depth, value.get_ref<const std::string&>());
-  };
   try {
-    Json json = Json::parse(text, keep);
-    if (too_deep)
+    // Not with the parser's own filter: that looks through an array again at each of its objects.
+    Json json = Json::parse(text);
+    if (!keep_only(json, 1, kept))
       return input_error(file, "", fmt::format("JSON nested deeper than {}", kDeepest),
                          kExportAgain);
     if (!json.is_object())
@@ -156,6 +184,7 @@ Result<GltfParts> gltf_parts(std::string_view bytes, const std::string& file) {
   GltfParts parts;
   parts.binary = chunks->binary;
   if (auto ok = few_bytes(*json, file); !ok) return tl::unexpected(ok.error());
+  if (auto ok = few_parts(*json, file); !ok) return tl::unexpected(ok.error());
   if (const Json* required = member(*json, "extensionsRequired"); required != nullptr)
     for (const Json& name : *required)
       if (name.is_string() &&

@@ -16,8 +16,6 @@ namespace ringcraft {
 namespace {
 
 constexpr float kLargestNumber = 1e7f;
-constexpr std::size_t kMostNodes = 16384;
-constexpr std::size_t kMostClips = 4096;
 constexpr const char* kExportAgain = "export the file again";
 
 // Buffers beside the file: only regular files of the folder and below, none too large.
@@ -136,8 +134,6 @@ class Reader {
 
   Result<void> nodes() {
     if (model_.nodes.empty()) return fault("/nodes", "there are no nodes");
-    if (model_.nodes.size() > kMostNodes)
-      return fault("/nodes", fmt::format("more than {} nodes", kMostNodes));
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       const tinygltf::Node& from = model_.nodes[i];
       const std::string place = fmt::format("/nodes/{}", i);
@@ -339,9 +335,6 @@ class Reader {
   }
 
   Result<void> animation(const std::string& clip) {
-    if (model_.animations.size() > kMostClips)
-      return fault("/animations", fmt::format("more than {} clips", kMostClips),
-                   "export fewer of them in one file");
     for (std::size_t i = 0; i < model_.animations.size(); ++i) {
       const std::string name = clean_name(model_.animations[i].name);
       out_.clips.push_back(name.empty() ? fmt::format("animation_{}", i) : name);
