@@ -23,6 +23,7 @@ Result<CanonicalCapture> read_canonical(const std::filesystem::path& path, const
 Result<CanonicalCapture> canonical_of(RawClip raw, const Skeleton& skeleton,
                                       const std::vector<SkeletonProfile>& profiles) {
   replace_junk_start(raw);
+  mend_jumps(raw);
   auto profile = best_profile(profiles, raw);
   if (!profile) return tl::unexpected(profile.error());
   auto clip = retarget(raw, *profile, skeleton);

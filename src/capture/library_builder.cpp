@@ -210,6 +210,7 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
   replace_junk_start(*raw);
+  mend_jumps(*raw);
   for (const std::string& note : raw->notes) out.note(path.string() + ": " + note);
   auto profile = profile_for(manifest, pointer, entry, *raw);
   if (!profile) return tl::unexpected(profile.error());

@@ -61,4 +61,9 @@ RawPose raw_rest_pose(const RawClip& clip);
 // of the file. Says whether there were any.
 bool replace_junk_start(RawClip& clip);
 
+// Frames in which a joint is elsewhere at once and back at once, as where markers were swapped or
+// lost (some systems write zeros then), are overwritten with what lies between their neighbours:
+// such frames would be falls and blows. Returns how many.
+std::size_t mend_jumps(RawClip& clip);
+
 }  // namespace ringcraft

@@ -242,6 +242,36 @@ TEST(Bvh, AHeldOrResampledJunkStartIsReplacedAndAHeldHonestOneKept) {
   EXPECT_FALSE(replace_junk_start(moving));
 }
 
+TEST(Bvh, FramesThatAreElsewhereAtOnceAndBackAreBridgedAndFastOnesKept) {
+  // The root goes steadily; in frame 20 it is far away, from 40 on as many frames as `lost` are 0.
+  const auto with_spikes = [](const char* frame_seconds, float way, bool spike, int lost) {
+    std::string motion = fmt::format("MOTION\nFrames: 80\nFrame Time: {}\n", frame_seconds);
+    for (int f = 0; f < 80; ++f)
+      motion += f >= 40 && f < 40 + lost
+                    ? "0 0 0 0 0 0 0 0 0\n"
+                    : fmt::format("{} {} 30 0 0 30 0 0 40\n", way * static_cast<float>(f),
+                                  spike && f == 20 ? -70 : 0);
+    return parse_bvh(with_motion(motion), "spikes.bvh").value();
+  };
+  for (const char* frame_seconds : {"0.00833333", "0.0333333"}) {
+    RawClip clip = with_spikes(frame_seconds, 0.01f, true, 4);
+    EXPECT_EQ(mend_jumps(clip), 5u);
+    const RawClip whole = with_spikes(frame_seconds, 0.01f, false, 0);
+    for (std::size_t f = 0; f < 80; ++f)
+      for (std::size_t j = 0; j < 2; ++j)
+        expect_near(clip.translation[clip.at(f, j)], whole.translation[clip.at(f, j)]);
+    EXPECT_EQ(clip.notes.size(), 1u);
+    EXPECT_EQ(mend_jumps(clip), 0u);
+  }
+  // Goes elsewhere and stays, is gone for longer than can be guessed, or is only fast.
+  RawClip cut = with_spikes("0.00833333", 0.01f, false, 40);
+  EXPECT_EQ(mend_jumps(cut), 0u);
+  RawClip gone = with_spikes("0.00833333", 0.01f, false, 25);
+  EXPECT_EQ(mend_jumps(gone), 0u);
+  RawClip fast = with_spikes("0.0333333", 1.5f, false, 0);
+  EXPECT_EQ(mend_jumps(fast), 0u);
+}
+
 TEST(Bvh, EveryCaptureThatIsHereIsRead) {
   const std::filesystem::path folder =
       std::filesystem::path(RINGCRAFT_SOURCE_DIR) / "../shared/mocap";

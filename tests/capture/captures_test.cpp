@@ -30,6 +30,7 @@ Result<Retargeted> retargeted(const std::filesystem::path& path, const std::stri
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
   replace_junk_start(*raw);
+  EXPECT_EQ(mend_jumps(*raw), 0u) << path;
   static const auto profiles = read_profiles(assets_folder() / "profiles");
   if (!profiles) return tl::unexpected(profiles.error());
   auto profile = best_profile(*profiles, *raw);
