@@ -37,17 +37,34 @@ std::string plain_name(std::string_view name) {
 }
 
 // A joint named with a prefix goes before a bare one of the same name (MASS has both "Spine" and
-// "Character1_Spine").
-int find_joint(const SkeletonProfile& profile, const RawClip& clip, const std::string& wanted) {
+// "Character1_Spine"). `prefixes` are plain.
+int find_joint(const std::vector<std::string>& prefixes, const RawClip& clip,
+               const std::string& wanted) {
   const std::string bare = plain_name(wanted);
   int found = -1;
   for (std::size_t j = 0; j < clip.joints.size(); ++j) {
     const std::string name = plain_name(clip.joints[j].name);
-    for (const std::string& prefix : profile.prefixes)
-      if (name == plain_name(prefix) + bare) return static_cast<int>(j);
+    for (const std::string& prefix : prefixes)
+      if (name == prefix + bare) return static_cast<int>(j);
     if (found < 0 && name == bare) found = static_cast<int>(j);
   }
   return found;
+}
+
+// What stands before the profile's names, plain: its own prefixes, or else what stands before the
+// name of the hips, as a subject's in "Bob_Hips".
+std::vector<std::string> prefixes_of(const SkeletonProfile& profile, const RawClip& clip) {
+  std::vector<std::string> prefixes;
+  for (const std::string& prefix : profile.prefixes) prefixes.push_back(plain_name(prefix));
+  const std::string& hips = profile.source[index(Joint::hips)];
+  if (find_joint(prefixes, clip, hips) >= 0) return prefixes;
+  for (const RawJoint& joint : clip.joints) {
+    std::string name = plain_name(joint.name);
+    if (!name.ends_with(plain_name(hips))) continue;
+    name.resize(name.size() - plain_name(hips).size());
+    return {name};
+  }
+  return prefixes;
 }
 
 // Whether the file's names begin as the profile's do.
@@ -81,12 +98,13 @@ bool needed(Joint joint) {
 }
 
 std::array<int, kJointCount> found_joints(const SkeletonProfile& profile, const RawClip& clip) {
+  const std::vector<std::string> prefixes = prefixes_of(profile, clip);
   std::array<int, kJointCount> found{};
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    found[j] = profile.source[j].empty() ? -1 : find_joint(profile, clip, profile.source[j]);
+    found[j] = profile.source[j].empty() ? -1 : find_joint(prefixes, clip, profile.source[j]);
     // A forearm whose end alone is known: the hand rests on it.
     if (found[j] < 0 && (joint_at(j) == Joint::left_hand || joint_at(j) == Joint::right_hand))
-      found[j] = find_joint(profile, clip,
+      found[j] = find_joint(prefixes, clip,
                             profile.source[static_cast<std::size_t>(kParent[j])] + kEndSite);
     const int carrier = mapped_carrier(found, j);
     if (found[j] >= 0 && carrier >= 0 && !profile.detached[j] &&
@@ -216,6 +234,36 @@ Result<float> unit_of(const SkeletonProfile& profile, const RawClip& clip, const
                      "add the file's unit to metres_per_unit");
 }
 
+// Says what the nearest profile lacks, where one comes near.
+tl::unexpected<Error> unknown_names(const std::vector<SkeletonProfile>& profiles,
+                                    const RawClip& clip) {
+  constexpr std::size_t kFew = 6;  // of the 13 bones that are needed
+  const SkeletonProfile* nearest = nullptr;
+  std::vector<std::string> missing;
+  std::pair<std::size_t, long> fewest{kFew + 1, 0};  // missing, all found
+  for (const SkeletonProfile& profile : profiles) {
+    const auto found = found_joints(profile, clip);
+    std::vector<std::string> lacks;
+    for (std::size_t j = 0; j < kJointCount; ++j)
+      if (needed(joint_at(j)) && found[j] < 0) lacks.push_back("'" + profile.source[j] + "'");
+    const long have = kJointCount - std::count(found.begin(), found.end(), -1);
+    if (std::pair(lacks.size(), -have) >= fewest) continue;
+    fewest = {lacks.size(), -have};
+    missing = std::move(lacks);
+    nearest = &profile;
+  }
+  const std::string place = clip.joints.empty() ? "" : "joint " + clip.joints[0].name;
+  if (nearest == nullptr)
+    return input_error(clip.file, place, "no skeleton profile knows these joint names",
+                       "write a profile in assets/profiles, or name one with profile = \"...\"");
+  return input_error(clip.file, place,
+                     fmt::format("no skeleton profile knows all of these joints; {} comes nearest "
+                                 "and lacks {}",
+                                 nearest->name, fmt::join(missing, ", ")),
+                     "name joints so, each below the one that carries it, or write a profile in "
+                     "assets/profiles");
+}
+
 }  // namespace
 
 Result<SkeletonProfile> read_profile(const std::filesystem::path& path) {
@@ -323,10 +371,7 @@ Result<SkeletonProfile> best_profile(const std::vector<SkeletonProfile>& profile
       best = &profile;
     }
   }
-  if (best == nullptr)
-    return input_error(clip.file, clip.joints.empty() ? "" : "joint " + clip.joints[0].name,
-                       "no skeleton profile knows these joint names",
-                       "write a profile in assets/profiles, or name one with profile = \"...\"");
+  if (best == nullptr) return unknown_names(profiles, clip);
   return *best;
 }
 

@@ -185,6 +185,30 @@ TEST(Profile, TheJointThatCarriesTheArmsIsTheUpperChestWhateverItsName) {
             clip.find("Spine1"));
 }
 
+TEST(Profile, WhatStandsBeforeEveryNameMakesNoOtherName) {
+  const auto known = profiles();
+  for (const std::string prefix : {"Bob_", "Skeleton 001_", "m_avg_"}) {
+    RawClip clip = motion_builder(prefix, true);
+    // A root above the hips is called otherwise.
+    for (RawJoint& joint : clip.joints) ++joint.parent;
+    clip.joints.insert(clip.joints.begin(), {"Reference", -1, {}});
+    const auto best = best_profile(known, clip);
+    ASSERT_TRUE(best) << prefix << ": " << to_string(best.error());
+    EXPECT_EQ(best->name, "mixamo") << prefix;
+    EXPECT_EQ(map_joints(*best, clip)->source[index(Joint::left_hand)],
+              clip.find(prefix + "LeftHand"));
+  }
+}
+
+TEST(Profile, WhatTheNearestProfileLacksIsNamed) {
+  RawClip clip = motion_builder("mixamorig:", true);
+  const auto at = static_cast<std::size_t>(clip.find("mixamorig:LeftHand"));
+  clip.joints[at].name = "mixamorig:LeftPaw";
+  const auto best = best_profile(profiles(), clip);
+  ASSERT_FALSE(best);
+  EXPECT_THAT(best.error().what, ::testing::HasSubstr("mixamo comes nearest and lacks 'LeftHand'"));
+}
+
 TEST(Profile, NamespacesCaseAndWhatStandsBetweenWordsMakeNoOtherName) {
   const auto known = profiles();
   for (const std::string prefix : {"mixamorig:", "mixamorig9:", "mixamorig_", "mixamorig",
