@@ -1,5 +1,10 @@
 #include "capture/read_capture.h"
 
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
 #include "capture/amc.h"
 #include "capture/bvh.h"
 #include "capture/gltf.h"
@@ -17,12 +22,22 @@ bool is_capture_file(const std::filesystem::path& path) {
   return kind == ".bvh" || kind == ".amc" || is_gltf_file(path);
 }
 
+bool is_other_capture_file(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 8> kKinds = {".fbx", ".c3d", ".dae",  ".bip",
+                                                             ".trc", ".htr", ".mvnx", ".npz"};
+  return std::find(kKinds.begin(), kKinds.end(), lowered(path.extension().string())) !=
+         kKinds.end();
+}
+
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source) {
   const std::string kind = lowered(path.extension().string());
   const bool acclaim = kind == ".amc";
   const bool gltf = is_gltf_file(path);
   if (kind == ".asf")
     return input_error(path.string(), "", "a skeleton without motion", "give its .amc file");
+  if (is_other_capture_file(path))
+    return input_error(path.string(), "", fmt::format("captures in {} are not read", kind),
+                       "export it as .bvh or .glb");
   if (!is_capture_file(path))
     return input_error(path.string(), "", "no capture by its extension",
                        "give a .bvh, .amc, .gltf, .glb, .vrm or .vrma file");

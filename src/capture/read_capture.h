@@ -19,7 +19,8 @@ struct CaptureSource {
 
 // By the ending, in any case.
 bool is_gltf_file(const std::filesystem::path& path);
-bool is_capture_file(const std::filesystem::path& path);  // one that read_capture() takes
+bool is_capture_file(const std::filesystem::path& path);        // one that read_capture() takes
+bool is_other_capture_file(const std::filesystem::path& path);  // motion that it does not read
 
 // .bvh, .amc, .gltf, .glb, .vrm, .vrma (any case).
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source = {});

@@ -28,7 +28,8 @@ Result<std::vector<fs::path>> captures_in(const fs::path& root) {
   for (fs::recursive_directory_iterator it(root, fault), end; !fault && it != end;
        it.increment(fault)) {
     std::error_code ignored;
-    if (it->is_regular_file(ignored) && is_capture_file(it->path())) files.push_back(it->path());
+    const bool motion = is_capture_file(it->path()) || is_other_capture_file(it->path());
+    if (it->is_regular_file(ignored) && motion) files.push_back(it->path());
     if (files.size() > kMostFiles)
       return input_error(root.string(), "", fmt::format("more than {} captures", kMostFiles),
                          "name a smaller folder");

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/temporary_folder.h"
 #include "capture/library_builder.h"
 #include "capture/segment_truth.h"
@@ -131,6 +133,20 @@ TEST(Segmentation, AListedCutTakesThePlaceOfWhatIsFoundInItsTime) {
   for (const FoundAction& action : not_listed(found, {at("listed", 1, 2).cut}))
     kept.push_back(action.cut.name);
   EXPECT_THAT(kept, ::testing::ElementsAre("before", "touches"));
+}
+
+TEST(Segmentation, CapturesInFormatsThatAreNotReadAreNamed) {
+  const TemporaryFolder scratch;
+  std::filesystem::create_directory(scratch.path() / "takes");
+  for (const char* name : {"takes/a.FBX", "b.c3d", "notes.txt"})
+    std::ofstream(scratch.path() / name) << "motion";
+  std::vector<std::string> notes;
+  const auto actions = collect_folder_actions(scratch.path(), &notes);
+  ASSERT_TRUE(actions) << to_string(actions.error());
+  EXPECT_TRUE(actions->empty());
+  EXPECT_THAT(notes, ::testing::UnorderedElementsAre(
+                         ::testing::HasSubstr("a.FBX: captures in .fbx are not read; export it"),
+                         ::testing::HasSubstr("b.c3d: captures in .c3d are not read; export it")));
 }
 
 TEST(Segmentation, AManifestFindsActionsAndListedOnesOverrideThem) {
