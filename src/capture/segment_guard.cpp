@@ -128,22 +128,28 @@ float yaw_off_opponent(const Measures& m, const Guard& guard, const std::vector<
   return middle_angle(std::move(offs));
 }
 
+float middle_of(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 void find_stance(const Measures& m, const std::vector<Tick>& among, Guard& guard) {
-  std::vector<float> ahead;
-  ahead.reserve(among.size());
+  std::vector<float> ahead_of, hands;
   for (const Tick t : among) {
+    hands.push_back(hands_height(m, t));
     const Vec3 apart = m.at(Joint::left_foot, t) - m.at(Joint::right_foot, t);
-    ahead.push_back(seen_along(apart, guard.facing[at(t)], Side::left).z / m.height);
+    ahead_of.push_back(seen_along(apart, guard.facing[at(t)], Side::left).z / m.height);
   }
-  const auto middle = ahead.begin() + static_cast<long>(ahead.size() / 2);
-  std::nth_element(ahead.begin(), middle, ahead.end());
-  guard.fights = guard.hands_up && std::abs(*middle) >= kBladed && std::abs(guard.yaw) >= kSideOn;
-  guard.southpaw = guard.fights && *middle < 0;
+  const float ahead = middle_of(std::move(ahead_of));
+  guard.hands = middle_of(std::move(hands));
+  guard.fights = guard.hands_up && std::abs(ahead) >= kBladed && std::abs(guard.yaw) >= kSideOn;
+  guard.southpaw = guard.fights && ahead < 0;
   guard.evidence = fmt::format(
       "{} of {} ticks stand quietly{}, nearest to their medians {:.2f} s; left ankle {:+.2f} H "
       "ahead of the right, pelvis {:+.0f} degrees off the opponent",
       among.size(), m.world.size(), guard.hands_up ? " with both hands up" : "", seconds(guard.at),
-      *middle, degrees(guard.yaw));
+      ahead, degrees(guard.yaw));
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ Vec3 seen_along(Vec3 v, float yaw, Side side) {
   return {side == Side::left ? own.x : -own.x, own.y, own.z};
 }
 
+float hands_height(const Measures& m, Tick t) {
+  return std::max(m.at(Joint::left_hand, t).y, m.at(Joint::right_hand, t).y);
+}
+
 std::vector<Tick> peaks_of(const std::vector<float>& values, float least, Tick around) {
   std::vector<Tick> out;
   const auto count = static_cast<Tick>(values.size());

@@ -87,6 +87,9 @@ inline const char* word(Side side) {
   return side == Side::left ? "left" : "right";
 }
 
+// The higher wrist over the ground, m.
+float hands_height(const Measures& measures, Tick tick);
+
 // Ticks of local peaks of at least `least`, highest within `around` ticks to both sides.
 std::vector<Tick> peaks_of(const std::vector<float>& values, float least, Tick around);
 
@@ -127,6 +130,7 @@ struct Guard {
   bool fights = false;          // stands with its hands up and one foot ahead, as who fights does
   bool southpaw = false;        // then: the right foot ahead
   float yaw = 0;                // rad: pelvis yaw off the opponent at `at`
+  float hands = 0;              // m over the ground: the higher wrist, median of the quiet moments
   std::vector<float> distance;  // m rms of the pose from the guard's, laid on it (state_machine.h)
   std::vector<float> facing;    // rad: where the body would face if it stood in guard
   std::string evidence;

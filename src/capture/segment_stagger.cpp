@@ -12,7 +12,7 @@
 namespace ringcraft {
 namespace {
 
-constexpr float kSags = 0.06f;   // H the higher wrist hangs under the upper quartile of its heights
+constexpr float kSags = 0.05f;   // H the higher wrist hangs under where it is in guard
 constexpr Tick kShortest = 216;  // ticks (1.8 s) it hangs at least
 constexpr float kSlow = 0.35f;   // s over which its height is smoothed: one duck is no stagger
 constexpr Tick kGap = 24;        // ticks between two such stretches that join them
@@ -31,11 +31,6 @@ constexpr std::size_t kMostSteps = 3;
 struct Step {
   Tick lift = 0, land = 0;
 };
-
-// Higher wrist over the ground, m.
-float hands_height(const Measures& m, Tick t) {
-  return std::max(m.at(Joint::left_hand, t).y, m.at(Joint::right_hand, t).y);
-}
 
 Vec3 trunk_direction(const Measures& m, Tick t) {
   return normalized_or(m.at(Joint::neck, t) - m.at(Joint::hips, t), kUp);
@@ -73,15 +68,9 @@ std::vector<Step> steps_of(const Clip& capture) {
 std::vector<Stretch> staggers(const Measures& m, const Guard& guard,
                               const std::vector<bool>& free) {
   if (!guard.fights) return {};
-  std::vector<float> height, free_heights;
-  for (Tick t = 0; t <= m.last; ++t) {
-    height.push_back(hands_height(m, t));
-    if (free[at(t)]) free_heights.push_back(height.back());
-  }
-  if (free_heights.empty()) return {};
-  const auto upper = free_heights.begin() + static_cast<long>(3 * free_heights.size() / 4);
-  std::nth_element(free_heights.begin(), upper, free_heights.end());
-  const float sagging = *upper - kSags * m.height;
+  std::vector<float> height;
+  for (Tick t = 0; t <= m.last; ++t) height.push_back(hands_height(m, t));
+  const float sagging = guard.hands - kSags * m.height;
   height = smoothed(height, kSlow);
   const auto sags = [&](Tick t) { return free[at(t)] && height[at(t)] <= sagging; };
   std::vector<Stretch> out;

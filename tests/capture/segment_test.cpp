@@ -119,6 +119,24 @@ TEST(Segmentation, TheMirroredCaptureGivesTheMirroredBlows) {
   EXPECT_NE(a.southpaw, b.southpaw);
 }
 
+TEST(Segmentation, ALongIdleWithHangingHandsHidesNoStagger) {
+  SKIP_WITHOUT_CAPTURES();
+  const Clip clip = canonical_clip_of(mocap_folder() / "debian/Boxing_Toes.bvh");
+  Clip idle = clip;
+  const auto waits = static_cast<std::size_t>(20 * kTicksPerSecond);
+  idle.frames.insert(idle.frames.end(), waits, clip.frames.back());
+  idle.root.insert(idle.root.end(), waits, clip.root.back());
+  idle.contacts.insert(idle.contacts.end(), waits, clip.contacts.back());
+  const auto recoveries = [](const Clip& capture) {
+    const auto found = segment(canonical_skeleton(), capture, "take").segments;
+    return std::count_if(found.begin(), found.end(), [](const FoundAction& action) {
+      return action.cut.response && action.cut.response->kind == ResponseKind::recovery_steps;
+    });
+  };
+  EXPECT_GE(recoveries(clip), 6);
+  EXPECT_GE(recoveries(idle), 6);
+}
+
 TEST(Segmentation, AListedCutTakesThePlaceOfWhatIsFoundInItsTime) {
   const auto at = [](const char* name, double begin, double end) {
     FoundAction action;
