@@ -117,6 +117,10 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   }
   if (!options.quiet) {
     for (const std::string& dropped : library->dropped()) tell("dropped: {}\n", dropped);
+    if (library->count(Kind::attack) + library->count(Kind::combination) == 0)
+      tell(
+          "no attack is left: nobody strikes in a fight on it; let captures begin and end their "
+          "blows near one guard\n");
     tell("built in {:.1f} s\n", took.count());
   }
   if (options.json) {
