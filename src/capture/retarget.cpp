@@ -115,19 +115,49 @@ void lay_along(const RawClip& raw, const Skeleton& target, RestFit& fit) {
   }
 }
 
+// How the trunk rests on the hips, from ours: bent or turned where the rest pose is a moment of
+// some motion. The identity where it is nearly ours.
+Quat rest_of_trunk(const RawPose& rest, const JointMap& map, const Skeleton& target) {
+  constexpr float kUpright = radians(20);
+  constexpr float kShort = 0.5f;  // of the way from the hips: too near the arms to say
+  const WorldPose ours = world_pose(target, rest_pose(target));
+  const auto way = [&](Joint from) {
+    return 0.5f * (rest_bone(rest, map, from, Joint::left_upper_arm) +
+                   rest_bone(rest, map, from, Joint::right_upper_arm));
+  };
+  Joint from = Joint::spine;
+  while (from != Joint::neck && map.source[index(from)] < 0) from = joint_at(index(from) + 1);
+  if (from == Joint::neck || glm::length(way(from)) < kShort * glm::length(way(Joint::hips)))
+    from = Joint::hips;
+  const Vec3 trunk = 0.5f * (ours.position[index(Joint::left_upper_arm)] +
+                             ours.position[index(Joint::right_upper_arm)]) -
+                     ours.position[index(from)];
+  const Quat turn = bone_and_axis_between(
+      trunk, kLeft, way(from), rest_bone(rest, map, Joint::right_upper_arm, Joint::left_upper_arm));
+  return glm::length(rotation_vector(turn)) < kUpright ? Quat(1, 0, 0, 0) : turn;
+}
+
 Result<RestFit> lay_on(const RawClip& raw, const SkeletonProfile& profile, const Skeleton& target) {
   auto map = map_joints(profile, raw);
   if (!map) return tl::unexpected(map.error());
   RestFit fit;
   fit.map = *map;
   const RawPose rest = raw_rest_pose(raw);
+  const Quat trunk = map->stands ? rest_of_trunk(rest, *map, target) : Quat(1, 0, 0, 0);
+  for (std::size_t j = index(Joint::spine); j <= index(Joint::head); ++j) fit.bone[j] = trunk;
   float leg_units = 0;
   for (const Side side : {Side::left, Side::right}) {
+    const Joint root = arm(side).root;
+    fit.bone[static_cast<std::size_t>(kParent[index(root)])] = trunk;
     for (const Limb& limb : {arm(side), leg(side)}) {
       const Vec3 upper = rest_bone(rest, *map, limb.root, limb.middle);
       const Vec3 lower = rest_bone(rest, *map, limb.middle, limb.end);
-      fit.bone[index(limb.root)] = rotation_between(target.offset[index(limb.middle)], upper);
-      fit.bone[index(limb.middle)] = rotation_between(target.offset[index(limb.end)], lower);
+      const Quat carried = limb.root == root ? trunk : Quat(1, 0, 0, 0);
+      const auto laid = [&](Joint to, Vec3 bone) {
+        return rotation_between(carried * target.offset[index(to)], bone) * carried;
+      };
+      fit.bone[index(limb.root)] = laid(limb.middle, upper);
+      fit.bone[index(limb.middle)] = laid(limb.end, lower);
     }
     // A hand goes on as its forearm rests. A foot rests flat, whatever bone the file draws in it,
     // and only its way over the ground is laid on.

@@ -120,6 +120,21 @@ TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
 // LaFAN1's kind: every joint's x lies along its bone, so that a rest pose has all bones in a line;
 // `mirrored`, as of mannequins: those of the right limbs look the other way (and one thigh a little
 // aside).
+// As where the rest pose is the first moment of a fighter who stands turned and bent.
+TEST(Retarget, ATrunkThatRestsTurnedOrBentIsLaidOnByItsShoulders) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  for (const Quat& turn :
+       {yaw_rotation(radians(50)), glm::angleAxis(radians(35), kLeft),
+        glm::normalize(yaw_rotation(radians(-30)) * glm::angleAxis(radians(30), kLeft))}) {
+    std::array<Quat, kJointCount> rest{};
+    for (std::size_t j = index(Joint::spine); j <= index(Joint::right_hand); ++j) rest[j] = turn;
+    const auto clip = retarget(capture_of(skeleton, poses, rest, 1), own_names(), skeleton);
+    ASSERT_TRUE(clip) << to_string(clip.error());
+    EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.03f);
+  }
+}
+
 void expect_lined_bones_to_do(bool mirrored) {
   SCOPED_TRACE(mirrored);
   const Skeleton skeleton = canonical_skeleton();
