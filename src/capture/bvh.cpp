@@ -92,6 +92,16 @@ class Reader {
                          "give a BVH file");
     word = words_.next();
     if (lowered(word) != "root") return unexpected_word(word, "ROOT");
+    if (auto ok = skeleton(); !ok) return ok;
+    while (lowered(words_.peek()) == "root") {  // another person, or a thing
+      words_.next();
+      if (auto ok = skeleton(); !ok) return ok;
+    }
+    return {};
+  }
+
+  // After ROOT.
+  Result<void> skeleton() {
     if (auto ok = begin_joint(-1); !ok) return ok;
     while (!open_.empty())
       if (auto ok = joint_item(); !ok) return ok;

@@ -1,9 +1,29 @@
 #include "capture/canonical.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "base/file.h"
 #include "capture/retarget.h"
 
 namespace ringcraft {
+namespace {
+
+// Of several people in one file the first is read.
+void note_other_people(const SkeletonProfile& profile, RawClip& raw) {
+  const auto map = map_joints(profile, raw);
+  if (!map) return;
+  const std::string& hips =
+      raw.joints[static_cast<std::size_t>(map->source[index(Joint::hips)])].name;
+  const auto people = std::count_if(raw.joints.begin(), raw.joints.end(),
+                                    [&](const RawJoint& joint) { return joint.name == hips; });
+  if (people > 1)
+    raw.notes.push_back(
+        fmt::format("{} joints are called {}: of several people the first is read", people, hips));
+}
+
+}  // namespace
 
 Result<CanonicalCapture> read_canonical(const std::filesystem::path& path, const Skeleton& skeleton,
                                         const CaptureSource& source) {
@@ -26,6 +46,7 @@ Result<CanonicalCapture> canonical_of(RawClip raw, const Skeleton& skeleton,
   mend_jumps(raw);
   auto profile = best_profile(profiles, raw);
   if (!profile) return tl::unexpected(profile.error());
+  note_other_people(*profile, raw);
   auto clip = retarget(raw, *profile, skeleton);
   if (!clip) return tl::unexpected(clip.error());
   return CanonicalCapture{std::move(raw), std::move(*profile), std::move(*clip)};

@@ -242,6 +242,21 @@ TEST(Bvh, AHeldOrResampledJunkStartIsReplacedAndAHeldHonestOneKept) {
   EXPECT_FALSE(replace_junk_start(moving));
 }
 
+TEST(Bvh, SeveralRootsAreReadEachWithItsChannels) {
+  std::string text = kHierarchy;
+  text +=
+      "ROOT Sword\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n}\n"
+      "MOTION\nFrames: 2\nFrame Time: 0.01\n"
+      "1 2 3 0 0 0 0 0 0 7 8 9\n1 2 3 0 0 0 0 0 0 8 8 9\n";
+  const auto clip = parse_bvh(text, "two.bvh");
+  ASSERT_TRUE(clip) << to_string(clip.error());
+  const auto sword = static_cast<std::size_t>(clip->find("Sword"));
+  EXPECT_EQ(clip->joints[sword].parent, -1);
+  expect_near(raw_pose(*clip, 0).position[sword], {7, 8, 9});
+  expect_near(raw_pose(*clip, 0.01).position[sword], {8, 8, 9});
+  expect_near(raw_pose(*clip, 0.01).position[0], {1, 2, 3});
+}
+
 TEST(Bvh, FramesThatAreElsewhereAtOnceAndBackAreBridgedAndFastOnesKept) {
   // The root goes steadily; in frame 20 it is far away, from 40 on as many frames as `lost` are 0.
   const auto with_spikes = [](const char* frame_seconds, float way, bool spike, int lost) {

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "capture/bvh.h"
+#include "capture/canonical.h"
 #include "mocap.h"
 
 namespace ringcraft {
@@ -98,6 +99,30 @@ TEST(Retarget, OurOwnBodyComesBackAsItWas) {
   EXPECT_TRUE(faults(*clip).empty()) << faults(*clip).front();
   EXPECT_LT(largest_difference(skeleton, poses, *clip), 0.004f);
   for (const FootContacts& contacts : clip->contacts) EXPECT_TRUE(contacts.left && contacts.right);
+}
+
+TEST(Retarget, OfSeveralPeopleInOneFileTheFirstIsReadAndTheyAreCounted) {
+  const Skeleton skeleton = canonical_skeleton();
+  const std::vector<Pose> poses = standing_work(skeleton);
+  const RawClip one = capture_of(skeleton, poses, std::array<Quat, kJointCount>{}, 1);
+  RawClip two = one;
+  for (RawJoint joint : one.joints) {
+    if (joint.parent >= 0) joint.parent += static_cast<int>(kJointCount);
+    two.joints.push_back(joint);
+  }
+  two.rotation.clear();
+  two.translation.clear();
+  for (std::size_t f = 0; f < one.frames; ++f)
+    for (const std::size_t from : {f, one.frames - 1 - f})
+      for (std::size_t j = 0; j < kJointCount; ++j) {
+        two.rotation.push_back(one.rotation[one.at(from, j)]);
+        two.translation.push_back(one.translation[one.at(from, j)]);
+      }
+  const auto read = canonical_of(two, skeleton, {own_names()});
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_LT(largest_difference(skeleton, poses, read->clip), 0.004f);
+  ASSERT_EQ(read->raw.notes.size(), 1u);
+  EXPECT_EQ(read->raw.notes[0], "2 joints are called hips: of several people the first is read");
 }
 
 TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
