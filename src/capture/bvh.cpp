@@ -230,7 +230,8 @@ class Reader {
       for (std::string_view word = cells.next(); !word.empty(); word = cells.next()) {
         const auto value = number(word);
         if (!value)
-          return fault(line, fmt::format("{} is not a number that can be used", in_quotes(word)));
+          return fault(line, fmt::format("{} is not a number that can be used", in_quotes(word)),
+                       word.find(',') == word.npos ? kExportAgain : "write decimals with points");
         row.push_back(*value);
         if (row.size() > channel_count_) break;
       }

@@ -164,7 +164,7 @@ std::size_t mend_jumps(RawClip& clip) {
   const float jump = kSpeed * size_of(clip) * static_cast<float>(clip.frame_seconds);
   const std::size_t longest =
       std::clamp(static_cast<std::size_t>(kLongest / clip.frame_seconds), std::size_t{1}, kFrames);
-  if (jump == 0) return 0;
+  if (jump == 0 || clip.frames == 0) return 0;
   std::vector<float> step;
   RawPose pose = pose_of_row(clip, 0);
   for (std::size_t f = 0; f + 1 < clip.frames; ++f) {

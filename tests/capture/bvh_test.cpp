@@ -186,6 +186,14 @@ TEST(Bvh, BadFilesAreErrorsThatSayWhereAndWhat) {
   }
 }
 
+TEST(Bvh, DecimalsWithCommasAreNamed) {
+  const auto clip = parse_bvh(
+      with_motion("MOTION\nFrames: 1\nFrame Time: 0.1\n1,5 2 3 4 5 6 7 8 9\n"), "comma.bvh");
+  ASSERT_FALSE(clip);
+  EXPECT_THAT(clip.error().what, HasSubstr("'1,5'"));
+  EXPECT_EQ(clip.error().remedy, "write decimals with points");
+}
+
 TEST(Bvh, NoPrefixOfAFileCrashesTheReader) {
   const std::string good = with_motion("MOTION\nFrames: 1\nFrame Time: 0.1\n1 2 3 4 5 6 7 8 9\n");
   for (std::size_t size = 0; size < good.size(); ++size) {
