@@ -122,6 +122,13 @@ bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome) {
          (impulse >= kTouchImpulse && (!blocked || outcome.response != ResponseKind::absorb));
 }
 
+ImpactOutcome answered(bool cuts, ImpactOutcome outcome) {
+  if (cuts) return outcome;
+  outcome.response = ResponseKind::absorb;
+  outcome.steps = 0;
+  return outcome;
+}
+
 ActionId choose_response(const MotionLibrary& library, const BodyModel& body,
                          const ImpactOutcome& outcome, float facing, Stance stance) {
   const float direction = wrapped_angle(outcome.direction - facing);

@@ -16,6 +16,9 @@ inline constexpr float kTouchImpulse = 5.0f;
 // step, but always a knockout. `impulse` in N s.
 bool interrupts(bool blocked, float impulse, const ImpactOutcome& outcome);
 
+// What is answered: a blow that cuts nothing (`interrupts`) is absorbed where the body is.
+ImpactOutcome answered(bool cuts, ImpactOutcome outcome);
+
 // The response action of the outcome's kind that fits best by steps and how far they can go, by
 // direction (seen from a body that faces `facing`, world yaw) and by the motion of head, chest and
 // hips that it continues.

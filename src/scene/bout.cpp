@@ -402,6 +402,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   }
 
   const bool cuts = interrupts(blow.blocked, glm::length(input.blow.impulse), outcome);
+  outcome = answered(cuts, outcome);
 
   // 3. The record, and the response as the struck fighter's next action.
   event.tick = state_.now;
@@ -415,8 +416,8 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   event.effective_mass = input.blow.effective_mass;
   event.head_spin = outcome.head_spin;
   event.damage = static_cast<float>(damage) / 1000;
-  event.response = cuts ? outcome.response : ResponseKind::absorb;
-  event.steps = cuts ? outcome.steps : 0;
+  event.response = outcome.response;
+  event.steps = outcome.steps;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
   event.fatigue = static_cast<float>(standing_[attacker.at()].condition.fatigue());

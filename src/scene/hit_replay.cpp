@@ -145,9 +145,9 @@ json recomputed(const HitReplay& replay, ImpactOutcome outcome) {
   event.effective_mass = blow.effective_mass;
   event.head_spin = outcome.head_spin;
   event.damage = static_cast<float>(damage) / 1000;
-  const bool cuts = interrupts(blow.blocked, glm::length(blow.impulse), outcome);
-  event.response = cuts ? outcome.response : ResponseKind::absorb;
-  event.steps = cuts ? outcome.steps : 0;
+  outcome = answered(interrupts(blow.blocked, glm::length(blow.impulse), outcome), outcome);
+  event.response = outcome.response;
+  event.steps = outcome.steps;
   event.direction = outcome.direction;
   event.knockout = outcome.knockout;
   return event_json(event, false);

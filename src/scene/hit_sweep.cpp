@@ -220,12 +220,9 @@ Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
     const ImpactInput input =
         with_impulse(*posed, query.part, way * static_cast<float>(point.impulse),
                      static_cast<float>(point.tone));
-    point.outcome = impulse_step(posed->body, input);
-    if (!interrupts(input.blow.blocked, static_cast<float>(point.impulse), point.outcome)) {
-      point.outcome.response = ResponseKind::absorb;
-      point.outcome.steps = 0;
-      point.outcome.knockout = false;
-    }
+    const ImpactOutcome outcome = impulse_step(posed->body, input);
+    const bool cuts = interrupts(input.blow.blocked, static_cast<float>(point.impulse), outcome);
+    point.outcome = answered(cuts, outcome);
     point.done = true;
     const std::size_t so_far = ++done;
     if (options.progress) options.progress(so_far, sweep.points.size());

@@ -181,7 +181,7 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   event.replay = replay_text(body, input, answer.outcome, kNoHealth);
   // Who is only touched goes on, and so does a guard that holds a blow.
   const bool cuts = interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome);
-  if (!cuts) answer.outcome.response = ResponseKind::absorb, answer.outcome.steps = 0;
+  answer.outcome = answered(cuts, answer.outcome);
   event.response = answer.outcome.response;
   event.steps = answer.outcome.steps;
   event.direction = answer.outcome.direction;

@@ -122,6 +122,19 @@ TEST_F(ResponseChoice, OfLikeStepsThoseThatCatchTheBodyAreTaken) {
   EXPECT_EQ(two.action(choose_response(two, body, outcome, 0)).name, "long");
 }
 
+TEST(Interrupts, ABlowThatCutsNothingIsAbsorbedAndOneThatCutsIsAnsweredAsItIs) {
+  ImpactOutcome outcome;
+  outcome.response = ResponseKind::recovery_steps;
+  outcome.steps = 2;
+  outcome.direction = kPi;
+  outcome.margin = .1f;
+  EXPECT_EQ(answered(true, outcome), outcome);
+  ImpactOutcome touch = outcome;
+  touch.response = ResponseKind::absorb;
+  touch.steps = 0;
+  EXPECT_EQ(answered(false, outcome), touch);
+}
+
 TEST_F(ResponseChoice, AnImpactOnALibraryPoseLeadsToAResponseOfItsKind) {
   const Pose pose = library.action(library.find("idle")).clip.at(0);
   for (const float impulse : {4.0f, 75.0f, 250.0f}) {
