@@ -21,6 +21,33 @@ class RepliesTest : public DuelFixture {
     replier.choice.id = one.id;
     setup_.repliers.push_back(replier);
   }
+  void only_third(const Placement& placement, Tick free) {
+    setup_.others.clear(), setup_.repliers.clear();
+    add_third(placement, free);
+  }
+  void weigh(int candidates) {
+    Style style;
+    style.candidates = candidates;
+    set_style(style);
+  }
+  // Fighter 0, which fighter 1 stands opposite of until `lag`, idles until somebody is asked.
+  DuelNode idled(Duel& game, Tick lag) const {
+    const DuelNode root = Duel::root(setup_, facing(1, lag));
+    return game.apply(root, choice(root, 0, "idle")).node;
+  }
+  // How often `flight` of a bystander meets one of the two, who stand as in `state`.
+  std::size_t hits_of(const InFlight& flight, std::array<bool, 2> strikes,
+                      const FightState& state) {
+    setup_.others = {{flight, FighterId(2), 0}};
+    setup_.others[0].strikes = strikes;
+    Duel game(setup_, 120);
+    std::vector<DuelEvent> met;
+    game.record_into(&met);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[0].flight.launch.end = 60;
+    game.play_on(node);
+    return met.size();
+  }
   std::int32_t value_of(const DuelNode& root, Tick horizon) const {
     Duel game(setup_, horizon);
     SearchCounts counts;
@@ -34,9 +61,8 @@ TEST_F(RepliesTest, WhoIsFreeAndReachesThePlannerMayAttackOrPass) {
   prune_nothing();
   add_third(kBehind, 12);
   Duel game(setup_, 120);
-  DuelNode node = Duel::root(setup_, facing(1, 60));
-  EXPECT_EQ(game.actor(node), Actor::maximizer);
-  node = game.apply(node, choice(node, 0, "idle")).node;
+  EXPECT_EQ(game.actor(Duel::root(setup_, facing(1, 60))), Actor::maximizer);
+  const DuelNode node = idled(game, 60);
   ASSERT_EQ(node.now, 12);  // the edge ends where somebody is asked
   EXPECT_EQ(game.actor(node), Actor::minimizer);
   std::vector<DuelMove> moves;
@@ -66,8 +92,7 @@ TEST_F(RepliesTest, WhoIsFreeAndReachesThePlannerMayAttackOrPass) {
 TEST_F(RepliesTest, WhoReachesNobodyCanOnlyPass) {
   add_third({0, -4, 0}, 12);
   Duel game(setup_, 120);
-  DuelNode node = Duel::root(setup_, facing(1, 30));
-  node = game.apply(node, choice(node, 0, "idle")).node;
+  const DuelNode node = idled(game, 30);
   std::vector<DuelMove> moves;
   game.moves(node, moves);
   ASSERT_EQ(moves.size(), 1u);
@@ -80,8 +105,7 @@ TEST_F(RepliesTest, OneOfThemReplies) {
   add_third(kBehind, 6);
   add_third({.9f, -.5f, -kPi / 2}, 12);
   Duel game(setup_, 120);
-  DuelNode node = Duel::root(setup_, facing(1, 30));
-  node = game.apply(node, choice(node, 0, "idle")).node;
+  const DuelNode node = idled(game, 30);
   std::vector<DuelMove> moves;
   game.moves(node, moves);
   ASSERT_EQ(moves.size(), 3u);
@@ -94,14 +118,11 @@ TEST_F(RepliesTest, OneOfThemReplies) {
 }
 
 TEST_F(RepliesTest, AReplyIsWorthNothingToThePlanner) {
-  Style style;
-  style.candidates = 4;
-  set_style(style);
+  weigh(4);
   prune_nothing();
   int worse = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    setup_.others.clear(), setup_.repliers.clear();
-    add_third(kBehind, 4);
+    only_third(kBehind, 4);
     const DuelNode root = Duel::root(setup_, random_state(seed));
     const std::int32_t with = value_of(root, 90);
     setup_.repliers.clear();
@@ -113,17 +134,14 @@ TEST_F(RepliesTest, AReplyIsWorthNothingToThePlanner) {
 }
 
 TEST_F(RepliesTest, AlphaBetaIsMinimaxWithThem) {
-  Style style;
-  style.candidates = 3;
-  set_style(style);
+  weigh(3);
   int replies = 0;
   for (const bool prune : {false, true}) {
     setup_.settings.prune = {};
     if (!prune) prune_nothing();
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
       Random random(seed);
-      setup_.others.clear(), setup_.repliers.clear();
-      add_third({random.uniform(-.4f, .4f), random.uniform(-1.8f, -1.2f), 0}, random.below(40));
+      only_third({random.uniform(-.4f, .4f), random.uniform(-1.8f, -1.2f), 0}, random.below(40));
       if (seed % 2 == 0) add_third({random.uniform(.6f, 1), 0, -kPi / 2}, random.below(40));
       std::stable_sort(setup_.repliers.begin(), setup_.repliers.end(),
                        [](const Replier& a, const Replier& b) { return a.free() < b.free(); });
@@ -158,14 +176,11 @@ TEST_F(RepliesTest, AlphaBetaIsMinimaxWithThem) {
 
 TEST_F(RepliesTest, EveryValueLiesInItsRange) {
   prune_nothing();
-  Style style;
-  style.candidates = 3;
-  set_style(style);
+  weigh(3);
   int known = 0, replied = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);
-    setup_.others.clear(), setup_.repliers.clear();
-    add_third({random.uniform(-.4f, .4f), random.uniform(-1.8f, -1.2f), 0}, random.below(20));
+    only_third({random.uniform(-.4f, .4f), random.uniform(-1.8f, -1.2f), 0}, random.below(20));
     Duel game(setup_, 20 + random.below(60));
     DuelNode node = Duel::root(setup_, random_state(seed));
     std::vector<DuelMove> moves;
@@ -203,32 +218,16 @@ TEST_F(RepliesTest, WhatThePlannerWalksIntoIsItsOwnFault) {
 
 TEST_F(RepliesTest, NobodyIsStruckByItsOwnTeam) {
   prune_nothing();
-  const auto hits = [&](bool planner, bool opponent) {
-    setup_.others = {{InFlight(tables(), launch("front_kick", -10, kBehind)), FighterId(2), 0}};
-    setup_.others[0].strikes = {planner, opponent};
-    Duel game(setup_, 120);
-    std::vector<DuelEvent> met;
-    game.record_into(&met);
-    DuelNode node = Duel::root(setup_, facing(1, 60));
-    node.side[0].flight.launch.end = 60;
-    game.play_on(node);
-    return met.size();
-  };
-  EXPECT_EQ(hits(true, true), 1u);
-  EXPECT_EQ(hits(false, true), 0u);
+  const InFlight kick(tables(), launch("front_kick", -10, kBehind));
+  EXPECT_EQ(hits_of(kick, {true, true}, facing(1, 60)), 1u);
+  EXPECT_EQ(hits_of(kick, {false, true}, facing(1, 60)), 0u);
 }
 
 TEST_F(RepliesTest, AStrikeOfABystanderLandsOnOneOfTheTwo) {
   prune_nothing();
-  setup_.others = {{InFlight(tables(), launch("cross", 0, {0, -.8f, 0})), FighterId(2), 0}};
-  Duel game(setup_, 120);
-  std::vector<DuelEvent> met;
-  game.record_into(&met);
-  FightState state = facing(.1f, 60);  // one in the other: whatever meets one meets both
-  DuelNode node = Duel::root(setup_, state);
-  node.side[0].flight.launch.end = 60;
-  game.play_on(node);
-  EXPECT_EQ(met.size(), 1u);
+  const InFlight cross(tables(), launch("cross", 0, {0, -.8f, 0}));
+  // One in the other: whatever meets one meets both.
+  EXPECT_EQ(hits_of(cross, {true, true}, facing(.1f, 60)), 1u);
 }
 
 TEST_F(RepliesTest, ThePlannerAsksThoseThatFightItAndStand) {
