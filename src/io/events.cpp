@@ -128,8 +128,9 @@ json event_json(const Event& event, bool with_lines) {
       break;
     case EventType::response:
     case EventType::knockdown:
-    case EventType::getup:
       add_response(object, event);
+      break;
+    case EventType::getup:
       break;
   }
   return object;

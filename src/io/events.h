@@ -1,15 +1,7 @@
 #pragma once
 // Events as JSON, the same objects in events.jsonl and in the extras of the GLB's animation.
 //
-// Every event: t (s), tick, type, who, whom (fighter indices; whom is absent where there is none),
-// action. strike    + strike (kind) hit, block + strike, part, point [x, y, z] m, impulse [x, y, z]
-// N s, impulse_Ns, speed_mps,
-//             effective_mass_kg, head_spin_radps, damage, response, steps, direction_rad, knockout,
-//             foreseen, and with lines: replay (what recomputes the hit, base64)
-// response, knockdown, getup + response, steps, direction_rad, knockout
-// decision  + nodes, leaves, forced_nodes, pruned{...}, chosen, and with lines: lines[]{score,
-// moves[]{who,
-//             action, forced}} best first
+// docs/files.md names their fields. With lines: what a decision weighed, and what recomputes a hit.
 
 #include <nlohmann/json.hpp>
 

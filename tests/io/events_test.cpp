@@ -92,6 +92,15 @@ TEST(Events, AResponseWithoutAnOpponentNamesNone) {
   EXPECT_EQ(response["steps"], 2);
 }
 
+TEST(Events, AGetUpAnswersNoBlow) {
+  const json rises = event_json(sample::events().back(), true);
+  ASSERT_EQ(rises["type"], "getup");
+  EXPECT_EQ(rises["action"], "get_up_back");
+  for (const char* of_an_answer : {"response", "steps", "direction_rad", "knockout"}) {
+    EXPECT_FALSE(rises.contains(of_an_answer)) << of_an_answer;
+  }
+}
+
 TEST(Events, BrokenTextAndNumbersDoNotBreakTheFile) {
   Timeline timeline = sample::timeline();
   timeline.events[1].action = "bad \xff name\nwith a break";
