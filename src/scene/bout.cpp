@@ -389,7 +389,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   ImpactOutcome outcome = impulse_step(stage_.body(target), input);
   record_.impulse_step_us.push_back(microseconds_since(begin));
   ++record_.counts.impacts;
-  event.replay = replay_text(stage_.body(target), input, outcome, fighter(target).health);
+  std::string replay = replay_text(stage_.body(target), input, outcome, fighter(target).health);
 
   // 2. What it costs. Nobody stands without health.
   const std::int32_t damage = damage_of(input.blow, outcome);
@@ -423,6 +423,7 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   event.fatigue = static_cast<float>(standing_[attacker.at()].condition.fatigue());
   note_foreseen(event);
   record_.timeline.events.push_back(event);
+  record_.timeline.events.back().replay = std::move(replay);
   if (!cuts && is_guard_part(blow.part)) {
     stage_.drive_back(target, blow.part, struck_velocity(blow));
   }

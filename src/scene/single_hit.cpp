@@ -178,7 +178,7 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   event.effective_mass = input.blow.effective_mass;
   event.head_spin = answer.outcome.head_spin;
   event.damage = static_cast<float>(damage_of(input.blow, answer.outcome)) / 1000;
-  event.replay = replay_text(body, input, answer.outcome, kNoHealth);
+  std::string replay = replay_text(body, input, answer.outcome, kNoHealth);
   // Who is only touched goes on, and so does a guard that holds a blow.
   const bool cuts = interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome);
   answer.outcome = answered(cuts, answer.outcome);
@@ -187,6 +187,7 @@ void finish(const MotionLibrary& library, const HitQuery& query, Showing& showin
   event.direction = answer.outcome.direction;
   event.knockout = answer.outcome.knockout;
   answer.timeline.events.push_back(event);
+  answer.timeline.events.back().replay = std::move(replay);
 
   if (!cuts) {
     answer.response = query.action;
