@@ -64,5 +64,14 @@ TEST(HitsStudy, OneQuestionAloneGivesItsOwnRowsOnly) {
   EXPECT_TRUE(found.study.timing.rows.empty());  // cost was not asked for
 }
 
+TEST(HitsStudy, TheLongestStepOfTheRagdollIsHeldToNoBar) {
+  HitsSettings settings;
+  settings.only = {"laws"};
+  settings.count = 1;
+  const std::string csv = study_csv(hits_study(default_library(), settings, {}).study.table);
+  EXPECT_THAT(csv, ::testing::ContainsRegex("at 120 Hz, [^,]*\",mm,[0-9.e-]*,,,\n"));
+  EXPECT_THAT(csv, ::testing::ContainsRegex("at 240 Hz, [^,]*\",mm,[0-9.e-]*,[a-z ]*,<= .*,yes\n"));
+}
+
 }  // namespace
 }  // namespace ringcraft
