@@ -1,5 +1,6 @@
 // `ringcraft library build`: captures and sheets to one library file.
 
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
+#include "io/report.h"
 #include "scene/blend_judge.h"
 
 namespace ringcraft {
@@ -42,33 +44,21 @@ std::vector<std::string> passed_over(const MotionLibrary& library) {
 }
 
 nlohmann::json summary_of(const MotionLibrary& library) {
-  std::size_t connecting = 0, blends = 0;
-  for (const Action& action : library.actions()) {
-    connecting += action.connects ? 1u : 0u;
-    blends += is_blend(action) ? 1u : 0u;
-  }
-  return {{"name", library.name()},
-          {"hash", hash_name(library.hash())},
-          {"actions",
-           library.launchable().size() + library.responses().size() + library.get_ups().size()},
-          {"attacks", library.count(Kind::attack)},
-          {"combinations", library.count(Kind::combination)},
-          {"defenses", library.count(Kind::defense)},
-          {"transitions", library.count(Kind::transition)},
-          {"idles", library.count(Kind::idle)},
-          {"responses", library.count(Kind::response)},
-          {"get_ups", library.count(Kind::get_up)},
-          {"connecting", connecting},
-          {"blends", blends},
-          {"dropped", library.dropped()},
-          {"passed_over", passed_over(library)},
-          {"notes", library.notes()},
-          {"mean_path_ticks", mean_path(library)},
-          {"graph",
-           {{"clips", library.graph().clips.size()},
-            {"pairs", library.graph().pairs},
-            {"minima", library.graph().minima},
-            {"transitions", library.graph().transitions.size()}}}};
+  nlohmann::json summary = library_counts(library);
+  summary.update({{"name", library.name()},
+                  {"hash", hash_name(library.hash())},
+                  {"blends", std::count_if(library.actions().begin(), library.actions().end(),
+                                           [](const Action& one) { return is_blend(one); })},
+                  {"dropped", library.dropped()},
+                  {"passed_over", passed_over(library)},
+                  {"notes", library.notes()},
+                  {"mean_path_ticks", mean_path(library)},
+                  {"graph",
+                   {{"clips", library.graph().clips.size()},
+                    {"pairs", library.graph().pairs},
+                    {"minima", library.graph().minima},
+                    {"transitions", library.graph().transitions.size()}}}});
+  return summary;
 }
 
 }  // namespace

@@ -206,22 +206,33 @@ double percentile(std::vector<double> values, int percent) {
 
 }  // namespace
 
+json library_counts(const MotionLibrary& library) {
+  const auto connecting = std::count_if(library.actions().begin(), library.actions().end(),
+                                        [](const Action& action) { return action.connects; });
+  return {{"actions",
+           library.launchable().size() + library.responses().size() + library.get_ups().size()},
+          {"attacks", library.count(Kind::attack)},
+          {"combinations", library.count(Kind::combination)},
+          {"defenses", library.count(Kind::defense)},
+          {"transitions", library.count(Kind::transition)},
+          {"idles", library.count(Kind::idle)},
+          {"responses", library.count(Kind::response)},
+          {"get_ups", library.count(Kind::get_up)},
+          {"connecting", connecting}};
+}
+
 json report_json(const Timeline& timeline, const std::vector<FighterLook>& looks,
                  const MotionLibrary& library, const RunFacts& facts) {
   std::vector<BodyModel> bodies;
   bodies.reserve(looks.size());
   for (const FighterLook& look : looks) bodies.push_back(look.body);
   const FightQuality quality = quality_of(timeline, bodies, library);
+  json of_library = library_counts(library);
+  of_library["name"] = library.name();
   return {{"version", facts.version},
           {"scene", facts.scene},
           {"seed", facts.seed},
-          {"library",
-           {{"name", library.name()},
-            {"actions", library.actions().size()},
-            {"attacks", library.count(Kind::attack) + library.count(Kind::combination)},
-            {"defenses", library.count(Kind::defense)},
-            {"transitions", library.count(Kind::transition)},
-            {"responses", library.count(Kind::response)}}},
+          {"library", std::move(of_library)},
           {"duration_s", rounded(seconds(timeline.end), 4)},
           {"hash", hash_name(timeline.hash())},
           {"interrupted", facts.interrupted},

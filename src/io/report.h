@@ -40,6 +40,10 @@ struct ClockFacts {
   std::vector<double> decision_ms, impulse_step_us;
 };
 
+// How many actions a library has, by kind: attacks are single blows, combinations several. Those
+// that only connect others are in no other count.
+nlohmann::json library_counts(const MotionLibrary& library);
+
 // Every field is the same for the same fight. A fighter's recovery_steps,
 // knockdowns and knockouts are those it suffered; hits_taken are clean ones. foreseen_agreement is
 // the share of the contacts that the tree foresaw from the actions in flight, with their kind of

@@ -116,6 +116,26 @@ TEST(Report, CountsWhatHappened) {
   EXPECT_EQ(report["seed"], 18446744073709551615u);
   EXPECT_EQ(report["hash"], hash_name(sample::timeline().hash()));
   EXPECT_EQ(report["library"]["attacks"], sample::library().count(Kind::attack));
+  EXPECT_EQ(report["library"]["name"], sample::library().name());
+}
+
+TEST(Report, CountsTheActionsOfALibraryByKindAsItsBuilderDoes) {
+  synthetic::Builder builder;
+  synthetic::Key end;
+  end.tick = 36;
+  for (const auto& [name, kind] :
+       {std::pair{"idle", Kind::idle}, std::pair{"jab", Kind::attack},
+        std::pair{"one_two", Kind::combination}, std::pair{"one_two_three", Kind::combination}}) {
+    builder.add(name, kind, {synthetic::Key{}, end});
+  }
+  builder.add("way", Kind::transition, {synthetic::Key{}, end}).connects = true;
+  const json counts = library_counts(MotionLibrary("small", builder.take()));
+  EXPECT_EQ(counts["attacks"], 1);
+  EXPECT_EQ(counts["combinations"], 2);
+  EXPECT_EQ(counts["idles"], 1);
+  EXPECT_EQ(counts["transitions"], 0);
+  EXPECT_EQ(counts["connecting"], 1);
+  EXPECT_EQ(counts["actions"], 4);
 }
 
 // Who is finished where it lies falls no more; and the tree foresees strikes, not falling bodies.
