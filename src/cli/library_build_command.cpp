@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
@@ -112,6 +113,12 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
           "no attack is left: nobody strikes in a fight on it; let captures begin and end their "
           "blows near one guard\n");
     tell("built in {:.1f} s\n", took.count());
+  }
+  if (summary["attacks"] == 0 && summary["combinations"] == 0) {
+    spdlog::warn(
+        "{}: no attack in it: nobody who fights with it can strike; add captures of blows, or name "
+        "attacks in a manifest (docs/captures.md)",
+        file.string());
   }
   if (options.json) {
     fmt::print("{}\n", json_text(summary, 1));
