@@ -16,7 +16,11 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   CommonOptions with = options;
   with.sets.insert(with.sets.begin(), kUsual);
   std::vector<std::string> asked_for;
-  if (asked.duration_s) asked_for.push_back(fmt::format("duration_s={}", *asked.duration_s));
+  if (asked.duration_s) {
+    if (const auto one = one_source("--duration", "duration_s", options.sets); !one)
+      return fail(one.error());
+    asked_for.push_back(fmt::format("duration_s={}", *asked.duration_s));
+  }
   const auto scene = scene_with(scene_name, with, asked_for);
   if (!scene) return fail(scene.error());
   const auto folder =

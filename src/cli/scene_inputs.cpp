@@ -35,8 +35,22 @@ Result<void> check_feints(const SceneFile& scene, const MotionLibrary& library) 
 
 }  // namespace
 
+Result<void> one_source(const std::string& option, const std::string& key,
+                        const std::vector<std::string>& sets) {
+  for (const std::string& set : sets) {
+    if (set.substr(0, set.find('=')) != key) continue;
+    return usage_error("", option, fmt::format("--set {} says it, too", key),
+                       "give one of the two");
+  }
+  return {};
+}
+
 Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
                              const std::vector<std::string>& more) {
+  if (options.seed) {
+    if (auto one = one_source("--seed", "seed", options.sets); !one)
+      return tl::unexpected(one.error());
+  }
   std::vector<std::string> sets = options.sets;
   if (options.seed) sets.push_back(fmt::format("seed={}", *options.seed));
   sets.insert(sets.end(), more.begin(), more.end());

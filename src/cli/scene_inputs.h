@@ -10,6 +10,10 @@
 
 namespace ringcraft {
 
+// A usage error where --set gives `key`, which `option` gives already.
+Result<void> one_source(const std::string& option, const std::string& key,
+                        const std::vector<std::string>& sets);
+
 // The scene of that name or path with the command's --set, --seed and `more`, in this order.
 Result<SceneFile> scene_with(const std::string& name_or_path, const CommonOptions& options,
                              const std::vector<std::string>& more = {});

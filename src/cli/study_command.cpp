@@ -4,6 +4,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -72,7 +73,21 @@ constexpr StudyEntry kStudies[] = {
      run_styles_study},
 };
 
+// What an option says, --set does not say as well.
+Result<void> check_sources(const StudyOptions& study, const std::vector<std::string>& sets) {
+  const std::tuple<bool, const char*, const char*> both[] = {
+      {study.library.has_value(), "--library", "library"},
+      {study.duration_s.has_value(), "--duration", "duration_s"},
+      {study.ring_m > 0, "--ring", "ring_m"}};
+  for (const auto& [given, option, key] : both) {
+    if (!given) continue;
+    if (auto one = one_source(option, key, sets); !one) return one;
+  }
+  return {};
+}
+
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
+  if (auto done = check_sources(study, options.sets); !done) return tl::unexpected(done.error());
   std::vector<std::string> more;
   if (study.duration_s) more.push_back(fmt::format("duration_s={}", *study.duration_s));
   return scene_with(study.what.empty() ? "duel" : study.what.front(), options, more);
@@ -183,6 +198,7 @@ Result<void> check_sets(const std::vector<std::string>& sets) {
 // neither an option nor --set says otherwise.
 Result<SceneFile> scene_of_pairings(float usual_ring_m, const StudyOptions& study,
                                     CommonOptions common) {
+  if (auto done = check_sources(study, common.sets); !done) return tl::unexpected(done.error());
   if (auto done = check_sets(common.sets); !done) return tl::unexpected(done.error());
   const std::string usual[] = {"duration_s=60", fmt::format("ring_m={}", usual_ring_m)};
   common.sets.insert(common.sets.begin(), std::begin(usual), std::end(usual));
