@@ -143,6 +143,7 @@ ActionId choose_response(const MotionLibrary& library, const BodyModel& body,
     const Action& action = library.action(id);
     if (!action.response || action.stance != stance) continue;
     Misfit m = misfit(*action.response, outcome, direction);
+    if (best.valid() && !m.better_than(least)) continue;  // what follows only adds to it
     if (moves) m.rest += kMotionWeight * unlike(simulated, moved(library.skeleton(), action.clip));
     if (steps) {
       m.rest += out_of_reach(strides_of(library.skeleton(), action.clip, 1), stride) / kStep;
