@@ -44,7 +44,7 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
                  fmt::format("begin at --seed {} or below, or run fewer", last_start)});
   }
   CommonOptions found = options;
-  if (found.out.empty()) found.out = "out/batch_" + scene->name;
+  if (found.out.empty()) found.out = with_name(kBatchFolder, scene->name);
   const std::filesystem::path folder = found.out;
   if (const auto made = output_folder(found, {}, study_file_names(), files_of(*scene)); !made)
     return fail(made.error());
@@ -69,7 +69,7 @@ int run_batch_command(const std::string& scene_name, const BatchOptions& asked,
 
 int run_merge(const std::vector<std::string>& folders, const CommonOptions& options) {
   CommonOptions found = options;
-  if (found.out.empty()) found.out = "out/merged";
+  if (found.out.empty()) found.out = kMergeFolder;
   std::optional<Batch> batch;
   for (const std::string& folder : folders) {
     const auto more = bouts_in(folder);

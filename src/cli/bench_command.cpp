@@ -12,9 +12,8 @@ namespace ringcraft {
 
 int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
                       const CommonOptions& options) {
-  constexpr const char* kUsual = "duration_s=10";
   CommonOptions with = options;
-  with.sets.insert(with.sets.begin(), kUsual);
+  with.sets.insert(with.sets.begin(), fmt::format("duration_s={:g}", kBenchSeconds));
   std::vector<std::string> asked_for;
   if (asked.duration_s) {
     if (const auto one = one_source("--duration", "duration_s", options.sets); !one)
@@ -24,7 +23,7 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   const auto scene = scene_with(scene_name, with, asked_for);
   if (!scene) return fail(scene.error());
   const auto folder =
-      output_folder(options, "out/bench", {"bench.json", "timing.json"}, files_of(*scene));
+      output_folder(options, kBenchFolder, {"bench.json", "timing.json"}, files_of(*scene));
   if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);
   if (!library) return fail(library.error());

@@ -39,6 +39,11 @@ EndAtSignal::~EndAtSignal() {
   --end_at_signal;
 }
 
+std::string with_name(std::string path, const std::string& name) {
+  const std::size_t from = path.find('<'), to = path.find('>');
+  return path.replace(from, to + 1 - from, name);
+}
+
 Result<std::filesystem::path> output_folder(const CommonOptions& options,
                                             const std::filesystem::path& usual,
                                             const std::vector<std::string>& names,

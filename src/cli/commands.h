@@ -14,15 +14,32 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "motion/skeleton.h"
 
 namespace ringcraft {
 
 // The largest seed that JSON holds exactly, as the schema of scenes says.
 inline constexpr std::uint64_t kMostSeed = (std::uint64_t{1} << 53) - 1;
 
+// The scene and the library of a command that is told none.
+inline constexpr const char* kUsualScene = "duel";
+inline constexpr const char* kUsualLibrary = "kickboxing";
+
+// Where results go without --out; what stands in <> is the name of the scene or of the library.
+inline constexpr const char* kFightFolder = "out/<scene>";
+inline constexpr const char* kTreeFolder = "out/<scene>_tree";
+inline constexpr const char* kBatchFolder = "out/batch_<scene>";
+inline constexpr const char* kMergeFolder = "out/merged";
+inline constexpr const char* kHitFolder = "out/hit";
+inline constexpr const char* kBenchFolder = "out/bench";
+inline constexpr const char* kLibraryFolder = "out/library";
+inline constexpr const char* kSparringFolder = "out/sparring";
+inline constexpr const char* kBuiltLibrary = "<library>.ringlib";
+std::string with_name(std::string path, const std::string& name);
+
 // What all commands understand.
 struct CommonOptions {
-  std::string out;  // output folder; empty: out/<scene>
+  std::string out;  // output folder; empty: the command's usual one
   std::optional<std::uint64_t> seed;
   std::vector<std::string> sets;  // --set path.to.key=value
   int threads = 1;
@@ -42,12 +59,12 @@ struct FightCommandOptions {
 };
 
 struct HitOptions {
-  std::string library = "kickboxing";
+  std::string library = kUsualLibrary;
   std::string body = "middleweight";
   std::string pose = "idle_guard_bounce@0.1";
   std::string part = "head";
   std::string impulse = "0,0,-26";
-  std::optional<float> tone;            // none: 1
+  std::optional<float> tone;            // none: HitQuery's
   std::string strike;                   // an action instead of the impulse
   std::string attacker;                 // its body; empty: as `body`
   std::optional<float> distance;        // m between the two
@@ -60,7 +77,7 @@ struct TreeOptions {
 };
 
 struct SparringOptions {
-  std::string library = "kickboxing";
+  std::string library = kUsualLibrary;
   std::string attacker = "middleweight", defender = "middleweight";
   std::vector<std::string> captures = {};  // two files of one capture space
 };
@@ -73,15 +90,18 @@ struct LibraryBuildOptions {
 };
 
 struct InterpolateOptions {
-  int wanted = 200;  // outcomes for each family
+  int wanted = 200;        // outcomes for each family
+  std::uint64_t seed = 1;  // where --seed says none
 };
 
 struct BatchOptions {
   int count = 10;  // bouts
 };
 
+inline constexpr double kBenchSeconds = 10;
+
 struct BenchOptions {
-  std::optional<double> duration_s;  // of the fight; none: 10 s, or as --set says
+  std::optional<double> duration_s;  // of the fight; none: kBenchSeconds, or as --set says
   int rounds = 1;
 };
 
@@ -91,9 +111,9 @@ struct ServeOptions {
 };
 
 struct ViewOptions {
-  std::string what = "duel";  // folder, page or scene
-  bool print = false;         // only the address
-  bool threads = false;       // --threads was given
+  std::string what = kUsualScene;  // folder, page or scene
+  bool print = false;              // only the address
+  bool threads = false;            // --threads was given
 };
 
 // Set by SIGINT and SIGTERM.
@@ -141,9 +161,10 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
 int run_library_inspect(const std::string& library, const CommonOptions& options);
 int run_library_interpolate(const std::string& library, const InterpolateOptions& asked,
                             const CommonOptions& options);
-// Heights of the fighter and of the opponent, m; both 0: two of one height.
+// Heights of the fighter and of the opponent, m.
 struct CheckHeights {
-  double own = 0, opponent = 0;
+  double own = static_cast<double>(kCanonicalHeight);
+  double opponent = static_cast<double>(kCanonicalHeight);
 };
 int run_library_check(const std::string& library, const CheckHeights& heights,
                       const CommonOptions& options);

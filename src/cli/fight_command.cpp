@@ -69,7 +69,7 @@ int run_fight(const std::string& scene_name, const FightCommandOptions& fight,
   FightExtras extras{{}, wants("vrma"), fight.root_motion, *characters};
   if (wants("bvh")) extras.bvh = *skeleton;
   const auto folder =
-      output_folder(options, std::filesystem::path("out") / scene->name,
+      output_folder(options, with_name(kFightFolder, scene->name),
                     fight_file_names(scene->fighters.size(), extras), files_of(*scene));
   if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);

@@ -134,7 +134,7 @@ Result<HitQuery> query_from(const HitOptions& hit) {
       return usage_error("", "--tone", "--sweep goes over the tone, too", "give one of the two");
     }
   }
-  query.tone = hit.tone.value_or(1.0f);
+  query.tone = hit.tone.value_or(query.tone);
   const auto body = body_named(hit.body);
   if (!body) return tl::unexpected(body.error());
   query.body = *body;
@@ -193,7 +193,7 @@ int run_hit(const HitOptions& hit, const CommonOptions& options) {
   if (!hit.sweep.empty()) names = {"hit_sweep.csv", "hit_sweep.json", "hit_sweep.svg"};
   std::vector<std::filesystem::path> inputs = files_of_library(hit.library);
   inputs.insert(inputs.end(), {hit.body, hit.attacker});
-  const auto folder = output_folder(options, "out/hit", names, inputs);
+  const auto folder = output_folder(options, kHitFolder, names, inputs);
   if (!folder) return fail(folder.error());
   const auto library = library_for_blows(hit.library);
   if (!library) return fail(library.error());

@@ -96,9 +96,9 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   }();
   if (!library) return fail(library.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  const std::filesystem::path file = options.out.empty()
-                                         ? std::filesystem::path(library->name() + ".ringlib")
-                                         : std::filesystem::path(options.out);
+  const std::filesystem::path file =
+      options.out.empty() ? std::filesystem::path(with_name(kBuiltLibrary, library->name()))
+                          : std::filesystem::path(options.out);
   if (const auto written = write_library(*library, file); !written) return fail(written.error());
   const nlohmann::json summary = summary_of(*library);
   const std::vector<std::string> unread = passed_over(*library);

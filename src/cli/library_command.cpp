@@ -50,7 +50,7 @@ int run_library_inspect(const std::string& name, const CommonOptions& options) {
     fmt::print("{}\n", json_text(rows, 1));
     return 0;
   }
-  const auto folder = output_folder(options, "out/library", {"library.html"}, {name});
+  const auto folder = output_folder(options, kLibraryFolder, {"library.html"}, {name});
   if (!folder) return fail(folder.error());
   const std::string page = library_page(*library, table_of(*library, options));
   if (interrupted) return 130;
@@ -173,10 +173,7 @@ int run_library_check(const std::string& name, const CheckHeights& heights,
   const EndAtSignal no_file_is_written;
   auto library = load_library(name);
   if (!library) return fail(library.error());
-  const auto usual = static_cast<double>(kCanonicalHeight);
-  const double own = heights.own > 0 ? heights.own : usual;
-  const double opponent = heights.opponent > 0 ? heights.opponent : usual;
-  const auto ratio = static_cast<float>(opponent / own);
+  const auto ratio = static_cast<float>(heights.opponent / heights.own);
   if (!as_tall(ratio)) library = fitted_library(*library, ratio);
   const LibraryCheck check = check_library(*library, measured_against_a_boxer(*library), ratio);
   if (options.json) {

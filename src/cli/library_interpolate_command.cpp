@@ -175,8 +175,8 @@ int run_library_interpolate(const std::string& name, const InterpolateOptions& a
                "refused");
   for (const Family& family : families(skeleton, actions, settings)) {
     if (interrupted) return 130;
-    const FamilyFigures figures =
-        figures_of(skeleton, family, made, settings, judge, asked, options.seed.value_or(1));
+    const FamilyFigures figures = figures_of(skeleton, family, made, settings, judge, asked,
+                                             options.seed.value_or(asked.seed));
     if (options.json) {
       rows.push_back(json_of(figures));
     } else {

@@ -17,10 +17,13 @@
 #include <CLI/CLI.hpp>
 
 #include "base/schema.h"
+#include "capture/library_builder.h"
 #include "cli/commands.h"
 #include "cli/completion.h"
+#include "cli/help.h"
 #include "cli/ranges.h"
 #include "cli/study_command.h"
+#include "scene/single_hit.h"
 
 namespace ringcraft {
 
@@ -39,8 +42,11 @@ void add_for_stdout(CLI::App& command, CommonOptions& options) {
   add_talk(command, options);
 }
 
-void add_common(CLI::App& command, CommonOptions& options, Overrides overrides) {
-  command.add_option("-o,--out", options.out, "Output folder")->type_name("DIR");
+void add_common(CLI::App& command, CommonOptions& options, Overrides overrides,
+                const std::string& usual_out) {
+  command.add_option("-o,--out", options.out, "Output folder")
+      ->type_name("DIR")
+      ->default_str(usual_out);
   if (overrides != Overrides::none) {
     command
         .add_option("--seed", options.seed,
@@ -66,13 +72,13 @@ int run_completion(const std::string& shell) {
 }
 
 std::shared_ptr<std::string> add_scene(CLI::App& command) {
-  auto scene = std::make_shared<std::string>("duel");
+  auto scene = std::make_shared<std::string>(kUsualScene);
   command.add_option("SCENE", *scene, "Scene file, or the name of one in assets/scenes");
   return scene;
 }
 
 std::shared_ptr<std::string> add_library(CLI::App& command) {
-  auto library = std::make_shared<std::string>("kickboxing");
+  auto library = std::make_shared<std::string>(kUsualLibrary);
   command.add_option("LIBRARY", *library,
                      "Library file, manifest, folder, or the name of one in assets");
   return library;
@@ -97,7 +103,7 @@ void add_fight(CLI::App& app, CommonOptions& options, int& code) {
       ->needs("--export");
   fight->add_flag("--root-motion", asked->root_motion,
                   "fight.glb moves each fighter's own node over the ground");
-  add_common(*fight, options, Overrides::seed_and_values);
+  add_common(*fight, options, Overrides::seed_and_values, kFightFolder);
   fight->callback([=, &options, &code] { code = run_fight(*scene, *asked, options); });
 }
 
@@ -113,7 +119,8 @@ void add_hit(CLI::App& app, CommonOptions& options, int& code) {
   hit->add_option("--strike", asked->strike, "A blow of a placed attacker, not an impulse")
       ->type_name("ACTION")
       ->excludes("--impulse");
-  hit->add_option("--attacker", asked->attacker, "Body of the attacker")->needs("--strike");
+  hit->add_option("--attacker", asked->attacker, "Body of the attacker, else as --body")
+      ->needs("--strike");
   hit->add_option("--distance", asked->distance, "m between the two, else where it lands best")
       ->needs("--strike");
   hit->add_option("--sweep", asked->sweep, "A map over impulse (N s), direction (deg) or tone")
@@ -121,10 +128,12 @@ void add_hit(CLI::App& app, CommonOptions& options, int& code) {
       ->excludes("--strike")
       ->allow_extra_args(false)
       ->take_all();
-  hit->add_option("--tone", asked->tone, "Muscle tone")->check(within(0.0, 1.0));
+  hit->add_option("--tone", asked->tone, "Muscle tone")
+      ->check(within(0.0, 1.0))
+      ->default_str(fmt::format("{:g}", HitQuery{}.tone));
   hit->add_option("--body", asked->body, "A file of assets/bodies");
   hit->add_option("--library", asked->library, "Motion library");
-  add_common(*hit, options, Overrides::none);
+  add_common(*hit, options, Overrides::none, kHitFolder);
   hit->callback([=, &options, &code] { code = run_hit(*asked, options); });
 }
 
@@ -138,7 +147,7 @@ void add_tree(CLI::App& app, CommonOptions& options, int& code) {
   tree->add_option("--nodes", asked->nodes, "Nodes to write out at most")
       ->type_name("N")
       ->transform(whole(1, 20000));
-  add_common(*tree, options, Overrides::seed_and_values);
+  add_common(*tree, options, Overrides::seed_and_values, kTreeFolder);
   tree->callback([=, &options, &code] { code = run_tree(*scene, *asked, options); });
 }
 
@@ -157,7 +166,7 @@ void add_sparring(CLI::App& app, CommonOptions& options, int& code) {
       ->expected(2)
       ->excludes("LIBRARY")
       ->excludes("--defender");
-  add_common(*sparring, options, Overrides::none);
+  add_common(*sparring, options, Overrides::none, kSparringFolder);
   sparring->callback([=, &options, &code] { code = run_sparring(*asked, options); });
 }
 
@@ -169,7 +178,7 @@ void add_batch(CLI::App& app, CommonOptions& options, int& code) {
   batch->add_option("--count", asked->count, "Bouts; the first has the scene's seed")
       ->type_name("N")
       ->transform(whole(1, 10000));
-  add_common(*batch, options, Overrides::seed_and_values);
+  add_common(*batch, options, Overrides::seed_and_values, kBatchFolder);
   batch->callback([=, &options, &code] { code = run_batch_command(*scene, *asked, options); });
 }
 
@@ -178,7 +187,7 @@ void add_merge(CLI::App& app, CommonOptions& options, int& code) {
   CLI::App* merge =
       app.add_subcommand("merge", "Put the bouts of several batches together, as one batch");
   merge->add_option("DIR", *folders, "Folders that `batch` wrote")->required();
-  add_common(*merge, options, Overrides::none);
+  add_common(*merge, options, Overrides::none, kMergeFolder);
   merge->callback([=, &options, &code] { code = run_merge(*folders, options); });
 }
 
@@ -200,7 +209,8 @@ void add_library_build(CLI::App& library, CommonOptions& options, int& code) {
   build
       ->add_option("--responses-from", asked->responses_from,
                    "Library that stands in for responses a folder of captures lacks, or none")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->default_str(LibraryBuildSettings{}.responses_from);
   build->add_flag("--not-mirrored", asked->not_mirrored, "No action also for the other side");
   auto* interpolated = build->add_flag("--interpolate", asked->interpolate,
                                        "Blends between repetitions also of a manifest's actions");
@@ -209,7 +219,7 @@ void add_library_build(CLI::App& library, CommonOptions& options, int& code) {
                  "No blends between a folder's repetitions")
       ->excludes(interpolated);
   build->add_flag("--not-connected", asked->not_connected, "Without the motion graph");
-  add_common(*build, options, Overrides::none);
+  add_common(*build, options, Overrides::none, kBuiltLibrary);
   build->get_option("--out")->description("Library file to write")->type_name("FILE");
   build->callback([=, &options, &code] { code = run_library_build(*asked, options); });
 }
@@ -221,7 +231,8 @@ void add_library_interpolate(CLI::App& library, CommonOptions& options, int& cod
   const auto asked = std::make_shared<InterpolateOptions>();
   interpolate->add_option("--wanted", asked->wanted, "Wanted outcomes for each family")
       ->transform(whole(1, 10000));
-  add_common(*interpolate, options, Overrides::seed);
+  add_common(*interpolate, options, Overrides::seed, "");
+  interpolate->get_option("--seed")->default_str(fmt::format("{}", asked->seed));
   interpolate->callback(
       [=, &options, &code] { code = run_library_interpolate(*name, *asked, options); });
 }
@@ -229,7 +240,7 @@ void add_library_interpolate(CLI::App& library, CommonOptions& options, int& cod
 void add_library_inspect(CLI::App& library, CommonOptions& options, int& code) {
   CLI::App* inspect = library.add_subcommand("inspect", "Every action as a filmstrip and a table");
   const auto name = add_library(*inspect);
-  add_common(*inspect, options, Overrides::none);
+  add_common(*inspect, options, Overrides::none, kLibraryFolder);
   inspect->get_option("--json")->excludes(inspect->get_option("--out"));  // writes no page
   inspect->callback([=, &options, &code] { code = run_library_inspect(*name, options); });
 }
@@ -267,11 +278,12 @@ void add_bench(CLI::App& app, CommonOptions& options, int& code) {
   const auto scene = add_scene(*bench);
   const auto asked = std::make_shared<BenchOptions>();
   bench->add_option("--duration", asked->duration_s, "Length of the fight, s")
-      ->check(within(0.5, 3600.0));
+      ->check(within(0.5, 3600.0))
+      ->default_str(fmt::format("{:g}", kBenchSeconds));
   bench->add_option("--rounds", asked->rounds, "How often the fight is fought")
       ->type_name("N")
       ->transform(whole(1, 1000));
-  add_common(*bench, options, Overrides::seed_and_values);
+  add_common(*bench, options, Overrides::seed_and_values, kBenchFolder);
   bench->callback([=, &options, &code] { code = run_bench_command(*scene, *asked, options); });
 }
 
@@ -293,7 +305,7 @@ void add_view(CLI::App& app, CommonOptions& options, int& code) {
       app.add_subcommand("view", "Open a page in the browser; a scene is fought before");
   view->add_option("FOLDER|PAGE|SCENE", asked->what, "Folder of a result, page, or scene");
   view->add_flag("--print", asked->print, "Print the address, open nothing");
-  add_common(*view, options, Overrides::seed_and_values);
+  add_common(*view, options, Overrides::seed_and_values, kFightFolder);
   view->remove_option(view->get_option("--json"));  // stdout has the address
   view->callback([=, &options, &code] {
     asked->threads = view->count("--threads") > 0;
@@ -355,6 +367,7 @@ int run(int argc, char** argv) {
   app.failure_message([](const CLI::App* whole, const CLI::Error& error) {
     return fmt::format("ringcraft: {}\n", to_string(misuse(*whole, error)));
   });
+  app.option_defaults()->always_capture_default();  // for say_defaults
   CommonOptions options;
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
   int code = 0;
@@ -373,6 +386,7 @@ int run(int argc, char** argv) {
   add_serve(app, options, code);
   add_view(app, options, code);
   add_completion(app, code);
+  say_defaults(app);
 
   // Logs go to stderr, results to stdout or files.
   app.parse_complete_callback([&] {

@@ -88,7 +88,7 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   const auto defender = body_named(sparring.defender).map(make_body);
   if (!defender) return fail(defender.error());
   const auto folder =
-      output_folder(options, "out/sparring", {"records.csv", "table.json", "table.html"},
+      output_folder(options, kSparringFolder, {"records.csv", "table.json", "table.html"},
                     {sparring.library, sparring.attacker, sparring.defender});
   if (!folder) return fail(folder.error());
   if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, *folder, options);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -78,7 +79,7 @@ Result<void> check_sources(const StudyOptions& study, const std::vector<std::str
   const std::tuple<bool, const char*, const char*> both[] = {
       {study.library.has_value(), "--library", "library"},
       {study.duration_s.has_value(), "--duration", "duration_s"},
-      {study.ring_m > 0, "--ring", "ring_m"}};
+      {study.ring_m.has_value(), "--ring", "ring_m"}};
   for (const auto& [given, option, key] : both) {
     if (!given) continue;
     if (auto one = one_source(option, key, sets); !one) return one;
@@ -86,11 +87,15 @@ Result<void> check_sources(const StudyOptions& study, const std::vector<std::str
   return {};
 }
 
+std::string study_folder(const std::string& name) {
+  return "out/study_" + name;
+}
+
 Result<SceneFile> scene_of(const StudyOptions& study, const CommonOptions& options) {
   if (auto done = check_sources(study, options.sets); !done) return tl::unexpected(done.error());
   std::vector<std::string> more;
   if (study.duration_s) more.push_back(fmt::format("duration_s={}", *study.duration_s));
-  return scene_with(study.what.empty() ? "duel" : study.what.front(), options, more);
+  return scene_with(study.what.empty() ? kUsualScene : study.what.front(), options, more);
 }
 
 bool is_file(const std::string& name) {
@@ -119,7 +124,7 @@ Result<Action> motion_of(const std::string& name, const MotionLibrary& library) 
 
 int finish_study(const Study& study, int code, const CommonOptions& options) {
   const std::filesystem::path folder = options.out.empty()
-                                           ? std::filesystem::path("out") / ("study_" + study.name)
+                                           ? std::filesystem::path(study_folder(study.name))
                                            : std::filesystem::path(options.out);
   if (const auto written = write_study(folder, study); !written) return fail(written.error());
   if (options.json) {
@@ -200,12 +205,13 @@ Result<SceneFile> scene_of_pairings(float usual_ring_m, const StudyOptions& stud
                                     CommonOptions common) {
   if (auto done = check_sources(study, common.sets); !done) return tl::unexpected(done.error());
   if (auto done = check_sets(common.sets); !done) return tl::unexpected(done.error());
-  const std::string usual[] = {"duration_s=60", fmt::format("ring_m={}", usual_ring_m)};
+  const std::string usual[] = {fmt::format("duration_s={:g}", BoutSeries{}.duration_s),
+                               fmt::format("ring_m={:g}", usual_ring_m)};
   common.sets.insert(common.sets.begin(), std::begin(usual), std::end(usual));
-  auto scene = scene_with("duel", common);
+  auto scene = scene_with(kUsualScene, common);
   if (!scene) return scene;
   if (study.duration_s) scene->duration = ticks(*study.duration_s);
-  if (study.ring_m > 0) scene->ring = study.ring_m;
+  if (study.ring_m) scene->ring = *study.ring_m;
   if (scene->ring >= kLeastRing) return scene;
   return usage_error("--set ring_m", "", fmt::format("{:g} m is too small a ring", scene->ring),
                      fmt::format("bouts begin up to 3 m apart: give {:g} m or more", kLeastRing));
@@ -216,7 +222,8 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, float usu
                     const StudyOptions& options, const CommonOptions& common) {
   const auto scene = scene_of_pairings(usual_ring_m, options, common);
   if (!scene) return fail(scene.error());
-  const BoutSeries series{options.bouts.value_or(10), seconds(scene->duration), scene->ring};
+  const BoutSeries series{options.bouts.value_or(BoutSeries{}.bouts), seconds(scene->duration),
+                          scene->ring};
   const auto used = studied_library(*scene, options);
   if (!used) return fail(used.error());
   const StudyRun run = study_run(common);
@@ -239,14 +246,19 @@ int finish_pairings(Study study, const std::vector<Pairing>& pairings, float usu
 struct PairingsStudy {
   const char* name;
   const char* title;
-  float ring_m;  // side of the ring where none is asked for
+  float ring_m;                        // side of the ring where none is asked for
+  std::span<const char* const> usual;  // pairings where none are asked for
 };
+constexpr const char* kHorizonPairings[] = {"3v1", "2v1", "3v2", "3v2.5", "1v1", "3v3"};
+constexpr const char* kStylePairings[] = {"outboxer:infighter", "balanced:balanced"};
+constexpr PairingsStudy kHorizonStudy{"horizon", "Horizon against horizon", 6, kHorizonPairings};
+constexpr PairingsStudy kStylesStudy{"styles", "Style against style", 9, kStylePairings};
 
 // Every name with every leaf value that was asked for. `pairing_of`: name, leaf -> Result<Pairing>.
 template <class PairingOf>
-int run_pairings_study(const PairingsStudy& what, const std::vector<std::string>& usual,
-                       PairingOf pairing_of, const StudyOptions& study,
+int run_pairings_study(const PairingsStudy& what, PairingOf pairing_of, const StudyOptions& study,
                        const CommonOptions& options) {
+  const std::vector<std::string> usual(what.usual.begin(), what.usual.end());
   std::vector<Pairing> pairings;
   for (const LeafValue leaf : leaves_of(study)) {
     for (const std::string& name : study.pairings.empty() ? usual : study.pairings) {
@@ -302,7 +314,7 @@ int run_cost_study(const StudyOptions& study, const CommonOptions& options) {
 
 int run_clips_study(const StudyOptions& study, const CommonOptions& options) {
   std::optional<EndAtSignal> nothing_to_keep(std::in_place);
-  const auto library = load_library(study.library.value_or("kickboxing"));
+  const auto library = load_library(study.library.value_or(kUsualLibrary));
   if (!library) return fail(library.error());
   const auto spec = body_named(study.body);
   if (!spec) return fail(spec.error());
@@ -333,18 +345,39 @@ int run_horizon_study(const StudyOptions& study, const CommonOptions& options) {
     pairing->name = with_leaf(name, leaf);
     return *std::move(pairing);
   };
-  return run_pairings_study({"horizon", "Horizon against horizon", 6},
-                            {"3v1", "2v1", "3v2", "3v2.5", "1v1", "3v3"}, pairing_of, study,
-                            options);
+  return run_pairings_study(kHorizonStudy, pairing_of, study, options);
 }
 
 int run_styles_study(const StudyOptions& study, const CommonOptions& options) {
-  return run_pairings_study({"styles", "Style against style", 9},
-                            {"outboxer:infighter", "balanced:balanced"}, style_pairing, study,
-                            options);
+  return run_pairings_study(kStylesStudy, style_pairing, study, options);
 }
 
 namespace {
+
+// For the help: what a study takes where an option says nothing.
+void add_defaults(CLI::App& one, const StudyEntry& entry) {
+  const auto usual = [&](const char* option, const auto& value) {
+    one.get_option(option)->default_str(fmt::format("{}", value));
+  };
+  if (entry.most == 1) usual("SCENE", kUsualScene);
+  if (entry.run == run_clips_study || entry.run == run_hits_study)
+    usual("--library", kUsualLibrary);
+  if (entry.run == run_search_study) {
+    usual("--count", SearchStudy{}.decisions);
+    usual("--bouts", SearchStudy{}.warm_up_bouts);
+  } else if (entry.run == run_cost_study) {
+    usual("--count", CostStudy{}.decisions);
+  } else if (entry.run == run_hits_study) {
+    usual("--count", HitsSettings{}.count);
+    usual("--seed", HitsSettings{}.seed);
+  } else if (entry.run == run_horizon_study || entry.run == run_styles_study) {
+    const PairingsStudy& study = entry.run == run_horizon_study ? kHorizonStudy : kStylesStudy;
+    usual("--bouts", BoutSeries{}.bouts);
+    usual("--duration", BoutSeries{}.duration_s);
+    usual("--ring", study.ring_m);
+    usual("--pairings", fmt::format("{}", fmt::join(study.usual, ",")));
+  }
+}
 
 void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) {
   const auto understood = [&](StudyTakes what) { return (understands & what) != 0; };
@@ -398,8 +431,7 @@ void add_options(CLI::App& one, std::uint32_t understands, StudyOptions& study) 
 
 }  // namespace
 
-void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&, Overrides),
-                       CommonOptions& options, int& code) {
+void add_study_command(CLI::App& app, AddCommon add_common, CommonOptions& options, int& code) {
   CLI::App* command =
       app.add_subcommand("study", "One question over many values: table, CSV, JSON and a picture");
   command->require_subcommand(1);
@@ -416,12 +448,13 @@ void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOption
     }
     one->add_option("--library", study->library, "Motion library");
     add_options(*one, entry.understands, *study);
-    add_common(*one, options, entry.overrides);
+    add_common(*one, options, entry.overrides, study_folder(entry.name));
+    add_defaults(*one, entry);
     one->callback([&code, &options, study, &entry] {
       std::vector<std::filesystem::path> inputs(study->what.begin(), study->what.end());
       inputs.insert(inputs.end(), {study->library.value_or(""), study->body});
-      const auto folder = output_folder(options, std::string("out/study_") + entry.name,
-                                        study_file_names(), inputs);
+      const auto folder =
+          output_folder(options, study_folder(entry.name), study_file_names(), inputs);
       code = folder ? entry.run(*study, options) : fail(folder.error());
     });
   }

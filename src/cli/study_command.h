@@ -17,7 +17,7 @@ namespace ringcraft {
 // What the studies understand besides the common options, each some of it.
 struct StudyOptions {
   std::vector<std::string> what = {};  // SCENE, or the two motions of `clips`
-  std::optional<std::string> library;  // otherwise the scene's, or kickboxing
+  std::optional<std::string> library;  // otherwise the scene's, or kUsualLibrary
   std::string body = "middleweight";
   std::optional<int> bouts;
   std::optional<int> count;  // decisions, or random hits
@@ -30,7 +30,7 @@ struct StudyOptions {
   std::vector<std::string> pairings = {};  // "3v1" or "outboxer:infighter"
   float slow = 1;                          // of the library in the paper's manner
   std::string leaf = "weighted";
-  float ring_m = 0;  // 0: as the study has it
+  std::optional<float> ring_m;  // none: as the study has it
 };
 
 int run_penetration_study(const StudyOptions& study, const CommonOptions& options);
@@ -46,7 +46,7 @@ int run_styles_study(const StudyOptions& study, const CommonOptions& options);
 int finish_study(const Study& study, int code, const CommonOptions& options);
 
 // Adds `study` to the command; `code` receives the exit code.
-void add_study_command(CLI::App& app, void (*add_common)(CLI::App&, CommonOptions&, Overrides),
-                       CommonOptions& options, int& code);
+using AddCommon = void (*)(CLI::App&, CommonOptions&, Overrides, const std::string& usual_out);
+void add_study_command(CLI::App& app, AddCommon add_common, CommonOptions& options, int& code);
 
 }  // namespace ringcraft

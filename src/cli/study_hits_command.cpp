@@ -7,7 +7,7 @@
 namespace ringcraft {
 
 int run_hits_study(const StudyOptions& study, const CommonOptions& options) {
-  const auto library = library_for_blows(study.library.value_or("kickboxing"));
+  const auto library = library_for_blows(study.library.value_or(kUsualLibrary));
   if (!library) return fail(library.error());
   HitsSettings settings;
   if (study.count) settings.count = *study.count;

@@ -11,7 +11,7 @@ namespace ringcraft {
 int run_tree(const std::string& scene_name, const TreeOptions& tree, const CommonOptions& options) {
   const auto scene = scene_with(scene_name, options);
   if (!scene) return fail(scene.error());
-  const auto folder = output_folder(options, std::filesystem::path("out") / (scene->name + "_tree"),
+  const auto folder = output_folder(options, with_name(kTreeFolder, scene->name),
                                     {"tree.json", "tree.svg"}, files_of(*scene));
   if (!folder) return fail(folder.error());
   const auto library = library_of(*scene);

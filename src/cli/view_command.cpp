@@ -113,7 +113,7 @@ int run_view(const ViewOptions& view, const CommonOptions& options) {
     const auto scene = scene_with(view.what, options);
     if (!scene) return fail(scene.error());
     CommonOptions fought = options;
-    if (fought.out.empty()) fought.out = (fs::path("out") / scene->name).string();
+    if (fought.out.empty()) fought.out = with_name(kFightFolder, scene->name);
     fought.summary_to_stderr = true;
     if (const int code = run_fight(view.what, {}, fought); code != 0) return code;
     page = fs::path(fought.out) / "fight.html";
