@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/impact_frame.h"
+#include "physics/tone.h"
 
 namespace ringcraft {
 namespace {

@@ -15,8 +15,6 @@ constexpr float kStanding = .03f;       // m: a sole this near to the ground sta
 constexpr float kMostGrounding = .12f;  // m: farther from the ground it is in the air after all
 constexpr float kMostShift = .12f;      // m: of the pelvis, against the drift
 constexpr float kBalanceGain = 1.0f;
-// Of full tone: what reproduces the published head accelerations.
-constexpr float kNeckTone = .5f;
 
 Vec3 flipped(Vec3 v) {
   return {-v.x, v.y, v.z};
@@ -216,13 +214,6 @@ Footing footing_of(const BodyModel& body, const ImpactFrame& frame, const Ragdol
   }
   footing.base = Base(corners);
   return footing;
-}
-
-Tone struck_tone(float tone) {
-  Tone t = whole_body(tone);
-  t[index(Part::neck)] *= kNeckTone;
-  t[index(Part::head)] *= kNeckTone;
-  return t;
 }
 
 Balance::Balance(const BodyModel& body, const ImpactFrame&)

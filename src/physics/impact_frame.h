@@ -41,9 +41,6 @@ class ImpactFrame {
   float lowered_ = 0;
 };
 
-// Tone of a struck body, by part, from that of its action.
-Tone struck_tone(float tone);
-
 // Applies `share` of the blow: as much as the part can take (effective mass times 20 m/s), the rest
 // at the joint to its parent, and so on.
 void strike(Ragdoll& ragdoll, const BodyModel& body, const ImpactFrame& frame, float share);

@@ -10,12 +10,11 @@
 #include "physics/impact_frame.h"
 #include "physics/response.h"
 #include "physics/standing_feet.h"
+#include "physics/tone.h"
 
 namespace ringcraft {
 namespace {
 
-constexpr float kReflex = .12f;      // s: no reflex is faster; until then the struck body gives
-constexpr float kFirm = .30f;        // s: full tone again
 constexpr float kIntoClip = .20f;    // s over which the aim goes from the cut action to the clip
 constexpr float kMeetBy = .45f;      // s: by then the simulated motion has met the clip
 constexpr float kMeetFrom = .12f;    // s: from here on hips and legs do; sooner they would slide
@@ -28,7 +27,6 @@ constexpr float kLetDownTone = .3f;
 constexpr float kFade = .6f;  // s after the landing in which the muscles let go
 constexpr float kGatherFrom = .25f, kGatherUntil = 1.6f;  // s after the landing
 constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
-constexpr float kGatherTone = .6f;
 constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
 constexpr float kMostGather = 3.0f;  // s after the landing
 constexpr float kNearer = .01f;      // m: a body that comes no nearer than by this
@@ -46,25 +44,6 @@ constexpr int kKickSteps = 12;     // of a kick (50 ms)
 constexpr float kKickMass = 4.0f;  // kg: a striker heavier than this is a leg
 constexpr Tick kEased = 8;         // ticks on either side that a shown pose is the mean of
 constexpr float kLimitTolerance = radians(2);
-
-// Muscles of a struck body that stays up: trunk and arms are slack until the reflex, the legs carry
-// on; the neck has its full torque but gives like a muscle (stiffness-limited).
-Tone standing_tone(float seconds, float tone) {
-  const float back = glm::smoothstep(kReflex, kFirm, seconds);
-  const auto ramp = [&](float low) { return tone * (low + (1 - low) * back); };
-  Tone t = whole_body(ramp(.4f));
-  for (const Part p : {Part::neck, Part::head}) t[index(p)] = ramp(1);
-  for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) t[i] = ramp(.9f);
-  return t;
-}
-
-Tone falling_tone() {
-  Tone t = whole_body(.35f);  // arms
-  for (const Part p : {Part::abdomen, Part::chest}) t[index(p)] = .4f;
-  for (const Part p : {Part::neck, Part::head}) t[index(p)] = .6f;
-  for (std::size_t i = index(Part::left_thigh); i < kPartCount; ++i) t[i] = .2f;
-  return t;
-}
 
 void set_arm(Pose& pose, bool left, Vec3 direction, float elbow) {
   const float out = left ? 1.0f : -1.0f;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/response.h"
+#include "physics/tone.h"
 #include "planner/duel.h"
 
 namespace ringcraft {
@@ -90,7 +91,9 @@ DuelEvent Duel::event_of(const Node& node, const Met& met) const {
   blow.victim = side(window.victim).body;
   blow.attack = moment_of(flight, met.tick);
   blow.struck = moment_of(struck, met.tick);
-  blow.tone = struck.table->in_flight() ? struck.table->tone : side(window.victim).tone;
+  const float tone = struck.table->in_flight() ? struck.table->tone : side(window.victim).tone;
+  const Tick struck_at = struck.table->clip_age(struck.age(met.tick));
+  blow.tone = tone * tone_left(*struck.table->action, struck_at);
   blow.kind = flight.table->strikes[window.strike].strike.kind;
   blow.contact = met.contact;
   const Frame seen = relative(struck.frame_at(met.tick), flight.frame_at(met.tick));

@@ -10,6 +10,7 @@
 #include "physics/impact.h"
 #include "physics/penetration.h"
 #include "physics/response.h"
+#include "physics/tone.h"
 #include "planner/tree.h"
 #include "scene/answer.h"
 #include "scene/hit_replay.h"
@@ -382,9 +383,9 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   const std::vector<Pose> continued = stage_.continued(target, state_.now, kImpulseStepTicks + 2);
   input.continued = continued;
   input.blow = blow;
-  input.contacts = library_.action(fighter(target).launch.action)
-                       .clip.contacts_at(fighter(target).launch.clip_age(state_.now));
-  input.tone = standing_[target.at()].condition.tone();
+  const Tick age = fighter(target).launch.clip_age(state_.now);
+  input.contacts = action_of(target).clip.contacts_at(age);
+  input.tone = standing_[target.at()].condition.tone() * tone_left(action_of(target), age);
   const auto begin = Clock::now();
   ImpactOutcome outcome = impulse_step(stage_.body(target), input);
   record_.impulse_step_us.push_back(microseconds_since(begin));

@@ -8,6 +8,7 @@
 
 #include "motion/strike_fit.h"
 #include "physics/response.h"
+#include "physics/tone.h"
 #include "scene/answer.h"
 #include "scene/fitted_library.h"
 #include "scene/hit_replay.h"
@@ -81,7 +82,9 @@ class Showing {
     ImpactInput input;
     input.pose = stage_.shown(id);
     input.pose_before = stage_.shown_before(id);
-    input.contacts = library_.action(launch.action).clip.contacts_at(now_ - launch.start);
+    const Action& action = library_.action(launch.action);
+    input.contacts = action.clip.contacts_at(now_ - launch.start);
+    input.tone = tone_left(action, now_ - launch.start);
     continued = stage_.continued(id, now_, kImpulseStepTicks + 2);
     input.continued = continued;
     return input;
@@ -252,7 +255,7 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
     if (met_by(*contact, strike, query.part) > least) return std::nullopt;
     std::vector<Pose> continued;
     ImpactInput input = showing.input_of(kStruck, continued);
-    input.tone = query.tone;
+    input.tone *= query.tone;
     input.blow = blow_of(answer.bodies[1], stage.shown(kAttacker), answer.bodies[0], input.pose,
                          *contact, strike.kind);
     stage.land(kAttacker, *contact);
@@ -354,7 +357,7 @@ Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& que
   show_pose(showing, *cut);
   std::vector<Pose> continued;
   ImpactInput input = showing.input_of(kStruck, continued);
-  input.tone = query.tone;
+  input.tone *= query.tone;
   input.blow.part = query.part;
   input.blow.impulse = yaw_rotation(showing.facing(kStruck)) * query.impulse;
   input.blow.point = point_of(answer.bodies[0], input.pose, query.part, input.blow.impulse);
@@ -378,7 +381,7 @@ Result<PosedBody> posed_body(const MotionLibrary& library, const HitQuery& query
 ImpactInput with_impulse(const PosedBody& posed, Part part, Vec3 impulse, float tone) {
   ImpactInput input = posed.input;
   input.continued = posed.continued;
-  input.tone = tone;
+  input.tone *= tone;
   input.blow.part = part;
   input.blow.impulse = yaw_rotation(posed.facing) * impulse;
   input.blow.point = point_of(posed.body, input.pose, part, input.blow.impulse);

@@ -18,7 +18,7 @@ struct HitQuery {
   double at_s = 0;                           // seconds into it
   Part part = Part::head;
   Vec3 impulse{};     // N s, in the fighter's own axes: x to its left, y up, z the way it faces
-  float tone = 1.0f;  // 0 limp .. 1 full
+  float tone = 1.0f;  // 0 limp .. 1 full; the action leaves as much of it as it does (tone_left)
 
   std::string strike;  // an attack instead of the impulse: its first blow meets the part
   BodySpec attacker;   // who throws it
@@ -43,7 +43,7 @@ Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& que
 // A body on which many impulses can be tried.
 struct PosedBody {
   BodyModel body;
-  ImpactInput input;  // without blow, tone and `continued`
+  ImpactInput input;  // without blow and `continued`; the tone that the action leaves
   std::vector<Pose> continued;
   float facing = 0;  // rad: world yaw of its own fore
 };

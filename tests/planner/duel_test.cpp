@@ -854,6 +854,26 @@ TEST_F(DuelTest, DownedFightersAreHitOnlyWhereTheSceneSaysSo) {
   }
 }
 
+// Who has just been struck has less tone, of what tiredness leaves.
+TEST_F(DuelTest, ABlowMeetsTheToneThatTheInterruptedActionLeaves) {
+  const auto tone = [&](const char* interrupted, float condition) {
+    FightState state = facing(0.9f);
+    state.fighters[1].launch = launch(interrupted, 0, state.fighters[1].launch.placement);
+    setup_.side[1].tone = condition;
+    Duel game(setup_, 240);
+    std::vector<DuelEvent> events;
+    game.record_into(&events);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[1].flight.launch.end = 200;
+    game.apply(node, choice(node, 0, "body_cross"));
+    EXPECT_EQ(events.size(), 1u);
+    return events.empty() ? 0 : events.front().blow.tone;
+  };
+  EXPECT_EQ(tone("duck", 1), 1);
+  EXPECT_LT(tone("absorb_back", 1), 0.9f);
+  EXPECT_FLOAT_EQ(tone("absorb_back", .8f), .8f * tone("absorb_back", 1));
+}
+
 // Lying it is out where it lies; on its way up it falls again.
 TEST_F(DuelTest, WhoIsDownAndHasNoHealthLeftGetsUpNoMore) {
   setup_.settings.hits_on_downed = true;

@@ -1,6 +1,8 @@
 #include "scene/hit_replay.h"
 
 #include <limits>
+#include <map>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include "base/hash.h"
 #include "base/random.h"
 #include "io/outputs.h"
+#include "physics/tone.h"
 #include "scene/fight.h"
 #include "scene/hit_fixture.h"
 #include "scene/replay_bytes.h"
@@ -68,6 +71,35 @@ TEST(HitReplay, ATouchOfALimpBodyComesOutToo) {
   ASSERT_TRUE(report) << to_string(report.error());
   EXPECT_EQ(report->hits, 1u);
   EXPECT_EQ(report->differ, 0u) << ::testing::PrintToString(report->lines);
+}
+
+// Who staggers has less tone than who stands; what was struck is what the replay holds.
+TEST(HitReplay, HasTheToneThatTheInterruptedActionLeaves) {
+  int staggered = 0, others = 0;
+  for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
+    const auto scene = read_scene("brawl3", {"duration_s=8", seed});
+    ASSERT_TRUE(scene);
+    const FightRecord record = simulate_fight(default_library(), *scene, {});
+    std::map<std::size_t, Tick> answered;  // when the fighter last began a response that stays up
+    std::set<std::size_t> fell;
+    for (const Event& event : record.timeline.events) {
+      if (event.type == EventType::response) answered[event.who.at()] = event.tick;
+      if (event.type == EventType::knockdown) fell.insert(event.who.at());
+      if (event.replay.empty() || fell.contains(event.whom.at())) continue;
+      if (event.type != EventType::hit && event.type != EventType::block) continue;
+      std::string why;
+      const auto replay = read_replay(event.replay, why);
+      ASSERT_TRUE(replay) << why;
+      const auto before = answered.find(event.whom.at());
+      const Tick since = before == answered.end() ? 1000 : event.tick - before->second;
+      const bool staggers = static_cast<float>(since) * kTickSeconds < kFirm;
+      (staggers ? EXPECT_LT(replay->input.tone, 1) : EXPECT_EQ(replay->input.tone, 1))
+          << "seed " << seed << " tick " << event.tick;
+      ++(staggers ? staggered : others);
+    }
+  }
+  EXPECT_GT(staggered, 0);
+  EXPECT_GT(others, 0);
 }
 
 TEST(HitReplay, IsNoPartOfTheTimelinesHash) {
