@@ -117,11 +117,18 @@ using KeptOwnMotion =
 ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
                            const KeptOwnMotion& kept = {});
 
+// Whether a body is on its feet, by how high its hips are: else it takes no step.
+bool on_its_feet(const BodyModel& body, const Pose& pose);
+
+// Whether it is down: no blow knocks it down.
+bool lies(const BodyModel& body, const Pose& pose);
+
 // The shown response: a second simulation, active, from the same start, aimed at `target` (world
 // poses, one a tick from the contact on; empty: track `input.continued`). Returns `ticks` world
-// poses, the first one tick after the contact. A knockdown falls with bracing arms and comes to
-// rest; where there are `lying` poses, from which get-ups start, it settles toward the nearest, and
-// up to 3 s more are returned while it is far from all of them. A knockout falls limp.
+// poses, the first one tick after the contact. A knockdown falls with bracing arms, or goes on from
+// where the body lies, and comes to rest; where there are `lying` poses, from which get-ups start,
+// it settles toward the nearest, and up to 3 s more are returned while it is far from all of them.
+// A knockout falls limp.
 std::vector<Pose> simulate_response(const BodyModel& body, const ImpactInput& input,
                                     const ImpactOutcome& outcome, std::span<const Pose> target,
                                     Tick ticks, std::span<const Pose> lying = {});

@@ -28,14 +28,13 @@ constexpr float kFade = .6f;  // s after the landing in which the muscles let go
 constexpr float kGatherFrom = .25f, kGatherUntil = 1.6f;  // s after the landing
 constexpr float kGatherIn = .2f;                          // s in which that sets in and ends
 constexpr float kAstray = .08f;  // m rms: a body so far from a lying pose goes on gathering itself
-constexpr float kMostGather = 3.0f;  // s after the landing
-constexpr float kNearer = .01f;      // m: a body that comes no nearer than by this
-constexpr float kStuckFor = .4f;     // in so many s is stuck
-constexpr float kRollsFor = .6f;     // s for which it then aims at lying on its back
-constexpr float kLed = radians(60);  // most, by which an upper arm is ahead of where it is
-constexpr float kResting = .15f;     // m/s
-constexpr float kRestFor = .25f;     // s
-constexpr float kLow = .6f;  // of the leg's length: a body whose hips are lower is not on its feet
+constexpr float kMostGather = 3.0f;        // s after the landing
+constexpr float kNearer = .01f;            // m: a body that comes no nearer than by this
+constexpr float kStuckFor = .4f;           // in so many s is stuck
+constexpr float kRollsFor = .6f;           // s for which it then aims at lying on its back
+constexpr float kLed = radians(60);        // most, by which an upper arm is ahead of where it is
+constexpr float kResting = .15f;           // m/s
+constexpr float kRestFor = .25f;           // s
 constexpr float kMostAfterLanding = 5.0f;  // s
 constexpr Tick kReposes = 12;              // a body that has come to rest
 constexpr Tick kMostLater = 360;           // than asked for, a body comes to rest
@@ -285,6 +284,7 @@ class Shown {
         within_(frame_.pose()),
         into_clip_(seconds_to_clip(kIntoClip, 50)),
         meet_by_(kMeetFrom + seconds_to_clip(kMeetBy - kMeetFrom, 20)),
+        lies_(ringcraft::lies(body, input.pose)),
         steps_of_blow_(input.blow.effective_mass > kKickMass ? kKickSteps : kPunchSteps) {}
 
   std::vector<Pose> run(Tick ticks) {
@@ -407,7 +407,7 @@ class Shown {
   Tone fall_tone(float now) const {
     const float gone = landed_ < 0 ? 0 : std::clamp((now - landed_) / kFade, 0.0f, 1.0f);
     if (outcome_.knockout) return whole_body(glm::mix(kLimpTone, kLimpLyingTone, gone));
-    Tone tone = now < kProtect ? standing_tone(now, tone_) : falling_tone();
+    Tone tone = now < kProtect && !lies_ ? standing_tone(now, tone_) : falling_tone();
     if (landed_ < 0) return tone;
     for (float& t : tone) t = glm::mix(t, std::min(t, kLyingTone), gone);
     const float since = now - landed_;
@@ -425,8 +425,11 @@ class Shown {
     return tone;
   }
 
+  // Whether the body has a fall before it in which to protect itself.
+  bool protects() const { return !lies_ && !outcome_.knockout; }
+
   void aim_fall(Tick tick, float now) {
-    if (now < kProtect && !outcome_.knockout) {
+    if (now < kProtect && protects()) {
       balance_.guide(ragdoll_, frame_.continued(tick - 1), frame_.continued(tick - 1),
                      frame_.continued(tick));
       return;
@@ -437,7 +440,7 @@ class Shown {
       const float facing = heading_of(pose.rotation[0]);
       const Vec3 flat{going.x, 0, going.z};
       const float way = glm::length(flat) > .05f ? yaw_of(flat) : frame_.in_yaw(outcome_.direction);
-      protective_ = outcome_.knockout ? pose : protective_pose(pose, wrapped_angle(way - facing));
+      protective_ = protects() ? protective_pose(pose, wrapped_angle(way - facing)) : pose;
       protecting_ = true;
       ragdoll_.set_servo(.10f, true);
     }
@@ -467,9 +470,7 @@ class Shown {
 
   // Whether it has come to rest on knees or hands, its trunk off the ground: it lies down from
   // there.
-  bool caught(const Pose& pose) const {
-    return still_ >= kRestFor && pose.hips.y < kLow * body_.skeleton.leg_length();
-  }
+  bool caught(const Pose& pose) const { return still_ >= kRestFor && !on_its_feet(body_, pose); }
 
   // Aims at the nearest lying pose. A body that comes no nearer lies on a limb that should go
   // there: for a while it aims at lying on its back, which rolls it off.
@@ -532,6 +533,7 @@ class Shown {
   bool stopped_ = false;       // some joint is being driven back
   Pose within_;                // the last pose looked at
   float into_clip_, meet_by_;  // s
+  bool lies_;                  // at the contact
   int steps_of_blow_;
   bool protecting_ = false, gathering_ = false;
   bool astray_ = false;     // far from every lying pose

@@ -147,9 +147,8 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   }
   victim.health -= answer.damage;
   const bool out = victim.health <= 0;  // nobody stands without health, nor gets up
-  const bool lies =
-      victim.balance == 2 && !(out && victim.flight.table->action->kind == Kind::get_up);
-  if (out && !lies) {
+  const bool rises = victim.balance == 2 && victim.flight.table->action->kind == Kind::get_up;
+  if (out && (rises || victim.balance != 2)) {
     answer.outcome.response = ResponseKind::knockdown;
     answer.outcome.knockout = true;
     const MotionTables& tables = *side(event.victim).tables;
@@ -157,12 +156,17 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
                                       event.blow.struck.faces(tables.library()),
                                       victim.flight.table->action->stance);
   }
+  // Who gets up goes on with that unless the blow fells it or it is on its feet again.
+  const bool felled = answer.outcome.response == ResponseKind::knockdown;
+  const bool lies =
+      victim.balance == 2 && !(rises && (felled || on_its_feet(side(event.victim).tables->body(),
+                                                               event.blow.struck.pose())));
   if (events_ != nullptr) events_->push_back(event);
   if (setup_->settings.prune.unanswered_hit && unanswered(node, event, *met.window.flight, move)) {
     ++counts_.unanswered_hit;
     fault += kHitFault + answer.damage / 10;
   }
-  credit_landed(node, event, !lies && answer.outcome.response == ResponseKind::knockdown);
+  credit_landed(node, event, !lies && felled);
   if (out && lies) {
     victim.knocked_out = true;
     victim.flight.launch.end = kNever;

@@ -26,17 +26,25 @@ void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick ti
 
 }  // namespace
 
+bool falls_already(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+                   const ImpactInput& input) {
+  return lies(body, input.pose) || library.action(cut.action).ends_lying != Lying::none;
+}
+
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
-                 const ImpactInput& input, const ImpactOutcome& outcome) {
+                 const ImpactInput& input, const ImpactOutcome& decided) {
   const Stance stance = library.action(cut.action).stance;
   const float facing = answers_from(library, cut, now, body.scale).yaw;
+  ImpactOutcome outcome = decided;
+  const bool down = falls_already(library, body, cut, input);
+  if (down) outcome.response = ResponseKind::knockdown;
   const ActionId response = choose_response(library, body, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);
-  // Who steps goes from where it is, not from where the cut action stood; who keeps its feet where
-  // they are comes back over them.
+  // Who steps goes from where it is, not from where the cut action stood, and so does who lies; who
+  // keeps its feet where they are comes back over them.
   const bool steps = outcome.response == ResponseKind::recovery_steps;
-  if (steps) carry(library, body.scale, input.pose, now, answer.launch);
+  if (steps || down) carry(library, body.scale, input.pose, now, answer.launch);
   const bool falls = outcome.response == ResponseKind::knockdown;
   const Tick ticks = falls ? answer.launch.end - now : kSimulatedTicks;
   std::vector<Pose> target;

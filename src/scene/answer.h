@@ -10,6 +10,10 @@
 
 namespace ringcraft {
 
+// Whether the struck body falls already, or lies: a blow moves it, and it comes to rest again.
+bool falls_already(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+                   const ImpactInput& input);
+
 struct Answer {
   Launch launch;                // of the response action, from where the cut action stands
   std::vector<Pose> simulated;  // world, one a tick from launch.start + 1 on

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/random.h"
@@ -428,26 +429,29 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   if (!cuts && is_guard_part(blow.part)) {
     stage_.drive_back(target, blow.part, struck_velocity(blow));
   }
-  const bool lies = fighter(target).down() && action_of(target).kind != Kind::get_up;
-  if (lies && outcome.knockout) put_out(target);
-  if (!cuts || lies || (fighter(target).down() && !outcome.knockout)) return;
+  // Who is on the way up, neither lying nor on its feet, goes on with that where it absorbs.
+  const BodyModel& body = stage_.body(target);
+  const bool rises = action_of(target).kind == Kind::get_up && !lies(body, input.pose) &&
+                     !on_its_feet(body, input.pose);
+  if (!cuts || (rises && outcome.response == ResponseKind::absorb)) return;
   respond(target, input, outcome, event);
   standing_[target.at()].fell_upon = 1u << attacker.at();  // whose own blow still presses on
 }
 
-void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome,
-                   Event& event) {
+void Bout::respond(FighterId id, const ImpactInput& input, ImpactOutcome outcome, Event& event) {
   Launch& cut = fighter(id).launch;
   cut.end = state_.now;
-  const bool falls = outcome.response == ResponseKind::knockdown;
+  const bool down = falls_already(library_, stage_.body(id), cut, input);
+  const bool falls = down || outcome.response == ResponseKind::knockdown;
+  outcome.knockout = outcome.knockout || is_out(id);  // who is out stays limp
   Answer answer = answer_to(library_, stage_.body(id), cut, state_.now, input, outcome);
   const Launch launch = answer.launch;
   begin(id, launch, std::move(answer.simulated), answer.sway);
-  if (falls) let_off(id);
+  if (falls && !down) let_off(id);
   fighter(id).balance = falls ? 2 : outcome.response == ResponseKind::recovery_steps ? 1 : 0;
 
   event.fall = false;
-  event.type = falls ? EventType::knockdown : EventType::response;
+  event.type = falls && !down ? EventType::knockdown : EventType::response;
   event.who = id;
   event.whom = {};
   event.action = library_.action(launch.action).name;
@@ -458,15 +462,15 @@ void Bout::respond(FighterId id, const ImpactInput& input, const ImpactOutcome& 
 
 // Who is out lies to the end of the bout, which comes soon where nobody has an enemy left.
 void Bout::put_out(FighterId id) {
+  Tick& end = fighter(id).launch.end;
+  const Tick at_rest = std::exchange(end, kNever);
   if (is_out(id)) return;
   standing_[id.at()].out = true;
-  Launch& last = fighter(id).launch;
   bool over = true;
   for (std::size_t i = 0; i < standing_.size(); ++i) {
     over = over && (is_out(FighterId(i)) || has_won(FighterId(i)));
   }
-  if (over) end_ = std::min(end_, last.end + kAfterKnockout);
-  last.end = kNever;
+  if (over) end_ = std::min(end_, at_rest + kAfterKnockout);
 }
 
 // Whoever fights `fallen` throws no more at it than what is on its way.

@@ -68,7 +68,7 @@ class Bout {
   void commit_falls();
   void deliver(FighterId attacker, FighterId target, const Blow& blow, Event event);
   void put_out(FighterId id);
-  void respond(FighterId id, const ImpactInput& input, const ImpactOutcome& outcome, Event& event);
+  void respond(FighterId id, const ImpactInput& input, ImpactOutcome outcome, Event& event);
   void let_off(FighterId fallen);
   void push_apart();
   void hold_in_ring(FighterId id);

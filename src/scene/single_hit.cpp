@@ -101,7 +101,7 @@ class Showing {
     stage_.begin(kStruck, answer.launch, std::move(answer.simulated), answer.sway);
     settle();
     show_to(end);
-    if (outcome.response == ResponseKind::knockdown && !outcome.knockout) {
+    if (library_.action(answer.launch.action).ends_lying != Lying::none && !outcome.knockout) {
       const Launch up = get_up_from(library_, stage_.body(kStruck), stage_.launch(kStruck), now_,
                                     stage_.shown(kStruck));
       stage_.begin(kStruck, up);

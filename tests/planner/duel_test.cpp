@@ -874,6 +874,24 @@ TEST_F(DuelTest, ABlowMeetsTheToneThatTheInterruptedActionLeaves) {
   EXPECT_FLOAT_EQ(tone("absorb_back", .8f), .8f * tone("absorb_back", 1));
 }
 
+TEST_F(DuelTest, WhoGetsUpAnswersABlowOnceItIsOnItsFeet) {
+  setup_.settings.hits_on_downed = true;
+  for (const char* action : {"get_up_back", "duck"}) {
+    FightState state = facing(0.9f);
+    state.fighters[1].balance = 2;
+    state.fighters[1].launch = launch(action, -170, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    std::vector<DuelEvent> events;
+    game.record_into(&events);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[1].flight.launch.end = 200;
+    node = game.apply(node, choice(node, 0, "body_cross")).node;
+    ASSERT_EQ(events.size(), 1u) << action;
+    ASSERT_TRUE(on_its_feet(tables().body(), events[0].blow.struck.pose())) << action;
+    EXPECT_EQ(node.side[1].pending.valid(), std::string(action) == "get_up_back") << action;
+  }
+}
+
 // Lying it is out where it lies; on its way up it falls again.
 TEST_F(DuelTest, WhoIsDownAndHasNoHealthLeftGetsUpNoMore) {
   setup_.settings.hits_on_downed = true;

@@ -31,6 +31,59 @@ SceneFile crowd(std::uint64_t seed, float radius) {
   return std::move(*scene);
 }
 
+// A light one whom three heavy ones kick wherever it is.
+SceneFile gang(std::uint64_t seed) {
+  auto scene = read_scene("outnumbered", {"duration_s=10", "seed=" + std::to_string(seed),
+                                          "planner.hits_on_downed=true", "planner.node_limit=300",
+                                          "fighter.1.style=kicker", "fighter.2.style=kicker"});
+  if (!scene) throw std::runtime_error(to_string(scene.error()));
+  auto& fighters = scene->fighters;
+  fighters.resize(4, fighters.back());
+  for (std::size_t i = 0; i < fighters.size(); ++i) {
+    const float bearing = static_cast<float>(i) * 2 * kPi / 3;
+    fighters[i].body.mass = i == 0 ? 45.0f : 125.0f;
+    fighters[i].placement = {1.1f * std::sin(bearing), 1.1f * std::cos(bearing),
+                             wrapped_angle(bearing + kPi)};
+  }
+  fighters[0].placement = {};
+  fighters[0].body.toughness = 3;  // falls often and is not knocked out
+  return std::move(*scene);
+}
+
+// What each blow that cuts something does to a body that lies, falls or gets up.
+TEST(Fall, WhoIsStruckOnTheGroundOrOnTheWayUpAnswersWithItsBody) {
+  int moved = 0, felled = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const FightRecord record = simulate_fight(default_library(), gang(seed));
+    const auto& events = record.timeline.events;
+    EventType last = EventType::decision;  // what the light one does: falls, gets up, or fights
+    bool out = false;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const Event& event = events[i];
+      const bool hit = event.type == EventType::hit && event.whom == FighterId(0);
+      if (hit && last == EventType::knockdown && glm::length(event.impulse) >= kTouchImpulse) {
+        ASSERT_LT(i + 1, events.size());
+        const Event& answer = events[i + 1];
+        EXPECT_EQ(answer.type, EventType::response) << "it is down already";
+        EXPECT_EQ(answer.who, FighterId(0));
+        EXPECT_NE(default_library().action(default_library().find(answer.action)).ends_lying,
+                  Lying::none);
+        ++moved;
+      }
+      if (event.who != FighterId(0)) continue;
+      felled += event.type == EventType::knockdown && last == EventType::getup ? 1 : 0;
+      EXPECT_FALSE(out && event.type == EventType::getup);
+      out = out || event.knockout;
+      if (event.type == EventType::knockdown || event.type == EventType::getup ||
+          event.type == EventType::decision) {
+        last = event.type;
+      }
+    }
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_GT(felled, 0);
+}
+
 const Event* fall_upon_somebody(const Timeline& timeline) {
   const auto found = std::find_if(timeline.events.begin(), timeline.events.end(),
                                   [](const Event& event) { return event.fall; });

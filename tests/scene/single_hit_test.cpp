@@ -41,6 +41,49 @@ TEST(SingleHit, NoImpulseIsAbsorbedWhateverTheActionDoes) {
   EXPECT_EQ(answer("slip_left", .14645859, Part::chest, .533565f), ResponseKind::absorb);
 }
 
+// It neither stands up into an answer that begins on its feet nor lies as if nothing had met it: it
+// goes where it is kicked, lies, and gets up from there.
+TEST(SingleHit, WhoLiesIsMovedByABlowAndStaysDown) {
+  for (const char* action : {"knockdown_back", "knockdown_front", "get_up_back"}) {
+    const bool rises = std::string(action) == "get_up_back";
+    HitQuery hit = query(action, rises ? .3 : 1.0);
+    hit.part = Part::abdomen;
+    hit.impulse = {60, 10, 0};
+    const auto answer = simulate_hit(default_library(), hit);
+    ASSERT_TRUE(answer) << to_string(answer.error());
+    EXPECT_EQ(answer->outcome.response, ResponseKind::absorb) << action;
+    EXPECT_NE(default_library().action(default_library().find(answer->response)).ends_lying,
+              Lying::none)
+        << answer->response;
+    const auto& frames = answer->timeline.tracks.front().frames;
+    const auto at = [&](float after) {
+      return frames.at(static_cast<std::size_t>(answer->hit_tick + ticks(after))).hips;
+    };
+    EXPECT_GT(at(.4f).x, at(0).x + .05f) << action;
+    for (const float t : {.1f, .3f, .5f, .8f}) EXPECT_LT(at(t).y, .35f) << action << " " << t;
+    EXPECT_GT(frames.back().hips.y, .7f) << action;
+  }
+}
+
+TEST(SingleHit, WhoSquatsTakesNoStep) {
+  int fell = 0, squats = 0;
+  for (double at = .5; at < 2.5; at += .1) {
+    const auto posed = posed_body(default_library(), query("get_up_back", at));
+    ASSERT_TRUE(posed) << to_string(posed.error());
+    const Pose& pose = posed->input.pose;
+    if (lies(posed->body, pose) || on_its_feet(posed->body, pose)) continue;
+    ++squats;
+    for (const float size : {10.0f, 20.0f, 30.0f, 40.0f, 50.0f}) {
+      const ImpactInput input = with_impulse(*posed, Part::chest, {0, 0, -size}, 1);
+      const ResponseKind response = impulse_step(posed->body, input).response;
+      EXPECT_NE(response, ResponseKind::recovery_steps) << at << " s, " << size << " N s";
+      fell += response == ResponseKind::knockdown ? 1 : 0;
+    }
+  }
+  EXPECT_GT(squats, 1);
+  EXPECT_GT(fell, 1);
+}
+
 TEST(SingleHit, NoBlowKnocksDownWhoLies) {
   for (const char* fall : {"knockdown_back", "knockdown_front", "knockdown_left"}) {
     const Action& action = default_library().action(default_library().find(fall));
