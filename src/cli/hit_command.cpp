@@ -99,6 +99,7 @@ nlohmann::json numbers_of(const HitQuery& query, const HitAnswer& answer) {
     numbers["speed_mps"] = blow.speed;
     numbers["effective_mass_kg"] = blow.effective_mass;
     numbers["blocked"] = blow.blocked;
+    numbers["hits"] = answer.hits;
   }
   return numbers;
 }
@@ -113,9 +114,11 @@ std::string sentence_of(const HitQuery& query, const HitAnswer& answer) {
                     answer.distance, blow.blocked ? "is blocked by" : "meets", name_of(blow.part),
                     blow.speed, blow.effective_mass, glm::length(blow.impulse));
   }
-  return text + fmt::format("{} ({}), head {:.1f} rad/s, {:+.0f} cm beyond the base of support",
-                            answer.response, name_of(outcome.response), outcome.head_spin,
-                            outcome.margin * 100);
+  text += fmt::format("{} ({}), head {:.1f} rad/s, {:+.0f} cm beyond the base of support",
+                      answer.response, name_of(outcome.response), outcome.head_spin,
+                      outcome.margin * 100);
+  if (answer.hits > 1) text += fmt::format("; the first of {} hits", answer.hits);
+  return text;
 }
 
 Result<HitQuery> query_from(const HitOptions& hit) {

@@ -70,13 +70,6 @@ class Showing {
   }
   void show_first() { stage_.show(0); }
   void settle() { stage_.keep_out_and_record(); }
-  void show_to(Tick end) {
-    while (now_ < end) {
-      show_next();
-      settle();
-    }
-  }
-
   ImpactInput input_of(FighterId id, std::vector<Pose>& continued) const {
     const Launch& launch = stage_.launch(id);
     ImpactInput input;
@@ -94,30 +87,31 @@ class Showing {
     return root_at(library_, stage_.launch(id), now_, stage_.body(id).scale).yaw;
   }
 
-  // Shows the response to its end, a get-up after a fall, and a moment more.
-  void show_answer(Answer answer, const ImpactOutcome& outcome) {
-    lies_ = outcome.knockout;
-    const Tick end = answer.launch.end;
+  // What the struck body does in place of what it was doing, once it was hit.
+  void answer(Answer answer, bool knockout) {
+    lies_ = lies_ || knockout;
+    answers_until_ = answer.launch.end;
     stage_.begin(kStruck, answer.launch, std::move(answer.simulated), answer.sway);
-    settle();
-    show_to(end);
-    if (library_.action(answer.launch.action).ends_lying != Lying::none && !outcome.knockout) {
-      const Launch up = get_up_from(library_, stage_.body(kStruck), stage_.launch(kStruck), now_,
-                                    stage_.shown(kStruck));
-      stage_.begin(kStruck, up);
-      show_to(up.end);
-    }
-    show_to(now_ + kAfterwards);
   }
+  // A moment after the last answer, and the get-up after a fall, are over.
+  Tick end() const { return std::max(answers_until_, last_hit_) + kAfterwards; }
+  void note_hit() { last_hit_ = now_; }
+  bool lies() const { return lies_; }
 
  private:
-  // Rests where its action is over.
+  // Gets up from where it was felled, and rests where its action is over.
   void go_on(FighterId id) {
     const Launch last = stage_.launch(id);
     const Tick shown = now_ - 1;
     if (shown < last.end || (id == kStruck && lies_)) return;
+    if (library_.action(last.action).ends_lying != Lying::none) {
+      if (!last.forced) return;
+      const Launch up = get_up_from(library_, stage_.body(id), last, shown, stage_.shown(id));
+      answers_until_ = up.end;
+      stage_.begin(id, up);
+      return;
+    }
     if (library_.machine().edges(last.action).empty()) return;
-    if (library_.action(last.action).ends_lying != Lying::none) return;  // somebody gets it up
     const float scale = stage_.body(id).scale;
     const Placement root = root_at(library_, last, shown, scale);
     Vec3 ahead = root * kForward;
@@ -131,7 +125,8 @@ class Showing {
   Stage stage_;
   std::array<ActionId, 2> rest_{};  // the idle that each was in, if any
   Tick now_ = 0;
-  bool lies_ = false;
+  Tick answers_until_ = 0, last_hit_ = 0;
+  bool lies_ = false;  // knocked out
 };
 
 struct Interrupted {
@@ -156,64 +151,70 @@ Result<Interrupted> interrupted_action(const MotionLibrary& library, const HitQu
   return Interrupted{action, ticks(query.at_s)};
 }
 
-// What happens once the hit is known: the impulse step, the response, the record.
-void finish(const MotionLibrary& library, const HitQuery& query, Showing& showing,
-            ImpactInput& input, HitAnswer& answer) {
-  const Launch cut = showing.stage().launch(kStruck);
+// What the blow does: the impulse step, the record, the answer. The first one of `answer` is what
+// it tells in numbers.
+void strike(const MotionLibrary& library, const HitQuery& query, Showing& showing,
+            const ImpactInput& input, StrikeKind kind, HitAnswer& answer) {
+  Stage& stage = showing.stage();
+  const Launch cut = stage.launch(kStruck);
   const BodyModel& body = answer.bodies.front();
-  answer.hit_tick = showing.now();
-  answer.at_s = static_cast<float>(seconds(answer.hit_tick - cut.start));
-  answer.outcome = impulse_step(body, input);
+  ImpactOutcome outcome = impulse_step(body, input);
 
   Event event;
-  event.tick = answer.hit_tick;
+  event.tick = showing.now();
   event.type = input.blow.blocked ? EventType::block : EventType::hit;
   event.who = query.strike.empty() ? kStruck : kAttacker;
   event.whom = kStruck;
   event.action = query.strike.empty() ? query.action : query.strike;
   event.part = std::string(name_of(input.blow.part));
-  if (!query.strike.empty()) {
-    event.strike = library.action(library.find(query.strike)).strikes.front().kind;
-  }
+  event.strike = kind;
   event.point = input.blow.point;
   event.impulse = input.blow.impulse;
   event.speed = input.blow.speed;
   event.effective_mass = input.blow.effective_mass;
-  event.head_spin = answer.outcome.head_spin;
-  event.damage = static_cast<float>(damage_of(input.blow, answer.outcome)) / 1000;
-  std::string replay = replay_text(body, input, answer.outcome, kNoHealth);
+  event.head_spin = outcome.head_spin;
+  event.damage = static_cast<float>(damage_of(input.blow, outcome)) / 1000;
+  std::string replay = replay_text(body, input, outcome, kNoHealth);
   // Who is only touched goes on, and so does a guard that holds a blow.
-  const bool cuts = interrupts(input.blow.blocked, glm::length(input.blow.impulse), answer.outcome);
-  answer.outcome = answered(cuts, answer.outcome);
-  event.response = answer.outcome.response;
-  event.steps = answer.outcome.steps;
-  event.direction = answer.outcome.direction;
-  event.knockout = answer.outcome.knockout;
+  const bool cuts = interrupts(input.blow.blocked, glm::length(input.blow.impulse), outcome);
+  outcome = answered(cuts, outcome);
+  event.response = outcome.response;
+  event.steps = outcome.steps;
+  event.direction = outcome.direction;
+  event.knockout = outcome.knockout;
   answer.timeline.events.push_back(event);
   answer.timeline.events.back().replay = std::move(replay);
+  showing.note_hit();
 
-  if (!cuts) {
-    answer.response = query.action;
-    if (is_guard_part(input.blow.part)) {
-      showing.stage().drive_back(kStruck, input.blow.part, struck_velocity(input.blow));
-    }
-    showing.settle();
-    showing.show_to(showing.now() + kAfterwards);
-  } else {
-    Answer shown = answer_to(library, body, cut, showing.now(), input, answer.outcome);
-    answer.response = library.action(shown.launch.action).name;
-    event.type =
-        event.response == ResponseKind::knockdown ? EventType::knockdown : EventType::response;
+  std::string response = library.action(cut.action).name;
+  if (cuts) {
+    const bool down = falls_already(library, body, cut, input);
+    ImpactOutcome shows = outcome;
+    shows.knockout = shows.knockout || showing.lies();  // who is out stays limp
+    Answer shown = answer_to(library, body, cut, showing.now(), input, shows);
+    response = library.action(shown.launch.action).name;
+    const bool falls = event.response == ResponseKind::knockdown && !down;
+    event.type = falls ? EventType::knockdown : EventType::response;
     event.who = kStruck;
     event.whom = {};
-    event.action = answer.response;
+    event.action = response;
     answer.timeline.events.push_back(event);
-    showing.show_answer(std::move(shown), answer.outcome);
+    showing.answer(std::move(shown), outcome.knockout);
+  } else if (is_guard_part(input.blow.part)) {
+    stage.drive_back(kStruck, input.blow.part, struck_velocity(input.blow));
   }
-  answer.timeline.end = showing.now();
-  answer.timeline.tracks = showing.stage().take_tracks();
+  if (++answer.hits > 1) return;
+  answer.hit_tick = showing.now();
+  answer.at_s = static_cast<float>(seconds(answer.hit_tick - cut.start));
+  answer.outcome = outcome;
+  answer.response = response;
   answer.input = input;
   answer.input.continued = {};
+}
+
+void take(Showing& showing, HitAnswer& answer) {
+  answer.timeline.end = showing.now();
+  answer.timeline.tracks = showing.stage().take_tracks();
 }
 
 // The stage with the body at its pose, contacts of this tick not yet settled.
@@ -232,7 +233,7 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
   HitAnswer answer;
   answer.bodies = {make_body(query.body), make_body(query.attacker)};
   const ActionId attack = library.find(query.strike);
-  const Strike& strike = library.of(kAttacker).action(attack).strikes.front();
+  const std::vector<Strike>& strikes = library.of(kAttacker).action(attack).strikes;
   const Tick hit = std::max(cut.at, place.age);
   Launch target;
   target.action = cut.action;
@@ -244,26 +245,34 @@ std::optional<HitAnswer> strike_from(const MotionLibrary& library, const HitQuer
   showing.begin(kStruck, cut.action, hit - cut.at, {});
   showing.begin(kAttacker, attack, attack_start, attacker_placement(root, place.distance));
   showing.show_first();
-  while (showing.now() < attack_start + strike.active_end - 1) {
-    showing.settle();
+  std::vector<bool> landed(strikes.size());
+  showing.settle();
+  while (answer.hits == 0 || showing.now() < showing.end()) {
+    const Tick age = showing.now() + 1 - attack_start;
+    if (answer.hits == 0 && age >= strikes.front().active_end) return std::nullopt;
     showing.show_next();
-    const Tick age = showing.now() - attack_start;
-    const auto contact = age >= strike.active_begin
-                             ? strike_contact(stage.swept(kAttacker), strike, stage.swept(kStruck))
-                             : std::nullopt;
-    if (!contact) continue;
-    if (met_by(*contact, strike, query.part) > least) return std::nullopt;
-    std::vector<Pose> continued;
-    ImpactInput input = showing.input_of(kStruck, continued);
-    input.tone *= query.tone;
-    input.blow = blow_of(answer.bodies[1], stage.shown(kAttacker), answer.bodies[0], input.pose,
-                         *contact, strike.kind);
-    stage.land(kAttacker, *contact);
-    answer.distance = place.distance;
-    finish(library, query, showing, input, answer);
-    return answer;
+    for (std::size_t s = 0; s < strikes.size(); ++s) {
+      if (landed[s] || !strikes[s].active(age)) continue;
+      const auto contact = strike_contact(stage.swept(kAttacker), strikes[s], stage.swept(kStruck));
+      if (!contact) continue;
+      // The first one has to meet as wished, the others what they meet.
+      if (answer.hits == 0 && (s > 0 || met_by(*contact, strikes[s], query.part) > least)) {
+        return std::nullopt;
+      }
+      landed[s] = true;
+      std::vector<Pose> continued;
+      ImpactInput input = showing.input_of(kStruck, continued);
+      input.tone *= query.tone;
+      input.blow = blow_of(answer.bodies[1], stage.shown(kAttacker), answer.bodies[0], input.pose,
+                           *contact, strikes[s].kind);
+      stage.land(kAttacker, *contact);
+      strike(library, query, showing, input, strikes[s].kind, answer);
+    }
+    showing.settle();
   }
-  return std::nullopt;
+  answer.distance = place.distance;
+  take(showing, answer);
+  return answer;
 }
 
 // Impulse times speed of the blow as the clips alone would have it, J: what an attacker looks for.
@@ -361,7 +370,13 @@ Result<HitAnswer> simulate_hit(const MotionLibrary& library, const HitQuery& que
   input.blow.part = query.part;
   input.blow.impulse = yaw_rotation(showing.facing(kStruck)) * query.impulse;
   input.blow.point = point_of(answer.bodies[0], input.pose, query.part, input.blow.impulse);
-  finish(library, query, showing, input, answer);
+  strike(library, query, showing, input, {}, answer);
+  showing.settle();
+  while (showing.now() < showing.end()) {
+    showing.show_next();
+    showing.settle();
+  }
+  take(showing, answer);
   return answer;
 }
 

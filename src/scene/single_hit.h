@@ -20,18 +20,21 @@ struct HitQuery {
   Vec3 impulse{};     // N s, in the fighter's own axes: x to its left, y up, z the way it faces
   float tone = 1.0f;  // 0 limp .. 1 full; the action leaves as much of it as it does (tone_left)
 
-  std::string strike;  // an attack instead of the impulse: its first blow meets the part
+  std::string strike;  // an attack instead of the impulse: its first blow meets the part, those
+                       // that follow in a combination whatever they meet
   BodySpec attacker;   // who throws it
   std::optional<float>
       distance;  // m between the two roots at the hit; else where it does most work
 };
 
+// In numbers the first hit; the timeline has them all.
 struct HitAnswer {
   ImpactInput input;              // without `continued`
   ImpactOutcome outcome;          // its direction is a world yaw; the fighter starts facing +Z
   std::string response;           // the action that answers; the interrupted one where a guard held
   Timeline timeline;              // the action, the hit, the response and the guard again
   std::vector<BodyModel> bodies;  // the struck one, then the attacker where there is one
+  int hits = 0;                   // and blocks: 0 to begin with, more than 1 of a combination
   Tick hit_tick = 0;
   float at_s = 0;      // seconds into the interrupted action at the hit
   float distance = 0;  // m between the roots of the two; 0 without an attacker
