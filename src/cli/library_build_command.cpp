@@ -108,16 +108,12 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
   }
   if (!options.quiet) {
     for (const std::string& dropped : library->dropped()) tell("dropped: {}\n", dropped);
-    if (library->count(Kind::attack) + library->count(Kind::combination) == 0)
-      tell(
-          "no attack is left: nobody strikes in a fight on it; let captures begin and end their "
-          "blows near one guard\n");
     tell("built in {:.1f} s\n", took.count());
   }
   if (summary["attacks"] == 0 && summary["combinations"] == 0) {
     spdlog::warn(
-        "{}: no attack in it: nobody who fights with it can strike; add captures of blows, or name "
-        "attacks in a manifest (docs/captures.md)",
+        "{}: no attack in it: nobody who fights with it can strike; add captures of blows that "
+        "begin and end near one guard, or name attacks in a manifest (docs/captures.md)",
         file.string());
   }
   if (options.json) {
