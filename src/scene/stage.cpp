@@ -162,7 +162,14 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
   actor.launch.placement.x += offset.x;
   actor.launch.placement.z += offset.z;
   actor.rest.hips += Vec3{offset.x, 0, offset.z};
-  for (Pose& pose : actor.simulated) pose.hips += Vec3{offset.x, 0, offset.z};
+  const bool falls = library_.action(actor.launch.action).ends_lying != Lying::none;
+  for (Pose& pose : actor.simulated) {
+    if (falls) {
+      pose.hips += Vec3{offset.x, 0, offset.z};
+    } else {
+      pose = swayed(actor.body.skeleton, pose, {offset.x, 0, offset.z});
+    }
+  }
   actor.track.segments.back().launch.placement = actor.launch.placement;
 }
 

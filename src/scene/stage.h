@@ -42,7 +42,7 @@ class Stage {
   void land(FighterId fighter, const Contact& contact);
 
   // Moves a fighter's launch on the ground; the feet follow by steps of their own. What is still to
-  // come of a simulation goes along.
+  // come of a simulation goes along, of who stands but for its feet.
   void shift(FighterId fighter, Vec3 offset);
 
   // Where feet that were set down beside another body have gone, on the ground, since the last
