@@ -30,20 +30,25 @@ function capsulesOf(extras, joints) {
     .filter((c) => c.joint && c.a && c.b && c.radius > 0);
 }
 
-// Colours that tell the fighters apart in the page: their gloves', light enough to read on dark, unless
-// two are alike.
-function coloursOf(gltf, count, palette) {
-  const hues = [];
+// Colours that tell the fighters apart in the page: their gloves', light enough to read on dark. Of two
+// of one hue, as of a team, the darker gloves are darker here; more than two, or grey ones, are given the
+// palette.
+export function coloursOf(gltf, count, palette) {
+  const gloves = [];
   for (let i = 0; i < count; ++i) {
     const made = gltf.parser.json.materials?.find((m) => m.name === `fighter${i}_gloves`);
     const base = made?.pbrMetallicRoughness?.baseColorFactor;
     if (!base) return palette;
-    const hsl = new Color(base[0], base[1], base[2]).getHSL({}, SRGBColorSpace);
-    const apart = (h) => Math.min(Math.abs(h - hsl.h), 1 - Math.abs(h - hsl.h));
-    if (hsl.s < 0.25 || hues.some((h) => apart(h) < 0.06)) return palette;
-    hues.push(hsl.h);
+    gloves.push(new Color(base[0], base[1], base[2]).getHSL({}, SRGBColorSpace));
   }
-  return hues.map((h) => `#${new Color().setHSL(h, 1, 0.66, SRGBColorSpace).getHexString()}`);
+  const colours = gloves.map((own) => {
+    const alike = gloves.filter(({ h }) => Math.min(Math.abs(h - own.h), 1 - Math.abs(h - own.h)) < 0.06);
+    const other = alike.find((glove) => glove !== own);
+    if (own.s < 0.25 || alike.length > 2 || other?.l === own.l) return null;
+    const light = !other ? 0.66 : own.l < other.l ? 0.58 : 0.76;
+    return `#${new Color().setHSL(own.h, 1, light, SRGBColorSpace).getHexString()}`;
+  });
+  return colours.includes(null) ? palette : colours;
 }
 
 class Fighter {
