@@ -36,7 +36,8 @@ constexpr float kTouching = 0.008f;       // m: a foot lower than that and
 constexpr float kTouchingSpeed = 0.05f;   // m/s: coming down faster than that touches the floor
 constexpr float kTouchingAstray = 0.02f;  // m: nearer to its goal it may glide in
 constexpr float kMeetsFloor = 0.5f;       // m/s: nor does it come down faster than that, and
-constexpr float kSlowsAt = 18;            // 1/s: times its height over it, after a simulation
+constexpr float kSlowsAt = 18;            // 1/s: times its height over it, after a simulation or
+                                          // where the clip lifts it
 constexpr float kClears = 0.25f;          // of its way back: so high it goes over the floor,
 constexpr float kClearest = 0.06f;        // m: or so high
 constexpr float kClearRate = 20;          // 1/s: at which it is taken there
@@ -327,7 +328,10 @@ void Feet::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
   // 1. Lifted: the way back to the clip.
   if (!planted && foot.mode != Mode::swing) {
     if (lift_waits(foot, other_foot, clip_ball)) return;
-    begin_move(foot, Mode::swing, carried - clip_ball, velocity - clip_velocity,
+    // The floor stops one that comes down: else it would go along it while the clip's is up.
+    const Vec3 stopped{velocity.x, std::max(velocity.y, -kSlowsAt * std::max(0.0f, height)),
+                       velocity.z};
+    begin_move(foot, Mode::swing, carried - clip_ball, stopped - clip_velocity,
                settings_.unlock_seconds);
     return;
   }

@@ -420,6 +420,54 @@ TEST(Playback, AFootThatComesDownFastDoesNotSkimTheFloor) {
   EXPECT_EQ(skate_ratio(shown), 0);
 }
 
+// A step of its own that comes down just when the clip lifts the foot: the floor stops it, and it
+// goes up as the clip's does instead of along the floor.
+TEST(Playback, AFootThatComesDownAsTheClipLiftsItIsNotDraggedOff) {
+  constexpr Tick kLength = 120, kSwing = 24;
+  const Clip comes_down = test::clip_of(
+      kSkeleton, 60,
+      [](float t) {
+        test::Stance stance;
+        stance.left_ball += Vec3{0, 0.5f, -0.7f} * (1 - t);
+        return stance;
+      },
+      [](float) {
+        return FootContacts{false, true};
+      },
+      test::in_place);
+  float lowest = 1;
+  for (Tick lifts = 10; lifts <= 34; ++lifts) {
+    const auto swung = [&](float t) {
+      return (t * kLength - static_cast<float>(lifts)) / static_cast<float>(kSwing);
+    };
+    const Clip steps = test::clip_of(
+        kSkeleton, kLength,
+        [&](float t) {
+          test::Stance stance;
+          const float s = swung(t);
+          stance.left_ball +=
+              Vec3{0.03f, 0.045f * test::bump(s, 0, 1), 0.14f - 0.24f * test::ramp(s, 0, 1)};
+          return stance;
+        },
+        [&](float t) {
+          const float s = swung(t);
+          return FootContacts{s <= 0 || s >= 1, true};
+        },
+        test::in_place);
+    Playback playback(kSkeleton);
+    Shown shown;
+    play(playback, comes_down, {}, 56, shown);
+    play(playback, steps, {}, kLength, shown);
+    const auto over = [&](Tick tick) {
+      return shown.at(static_cast<std::size_t>(56 + tick), Joint::left_toes).y -
+             kSkeleton.toe_height();
+    };
+    lowest = std::min(lowest, over(lifts + kSwing / 2));
+    EXPECT_EQ(skate_ratio(shown), 0) << lifts;
+  }
+  EXPECT_GT(lowest, 0.02f);
+}
+
 TEST(Playback, HipsSinkRatherThanAFootIsDragged) {
   // The clip stands up so tall that a foot held a little to the side is out of reach.
   const Clip tall = test::clip_of(
