@@ -21,6 +21,23 @@ class DuelTest : public DuelFixture {
     fall.end = kNever;
     return {InFlight(tables(), fall), FighterId(2), 0};
   }
+  // What a cross does to one who began `action` at `start`.
+  struct Crossed {
+    std::vector<DuelEvent> events;
+    Duelist struck;
+  };
+  Crossed crossed_in(const char* action, Tick start, int balance) {
+    FightState state = facing(0.9f);
+    state.fighters[1].balance = balance;
+    state.fighters[1].launch = launch(action, start, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    Crossed crossed;
+    game.record_into(&crossed.events);
+    DuelNode node = Duel::root(setup_, state);
+    node.side[1].flight.launch.end = 200;
+    crossed.struck = game.apply(node, choice(node, 0, "body_cross")).node.side[1];
+    return crossed;
+  }
   void set_fallen(bool any) {
     setup_.others.clear();
     setup_.fallen.clear();
@@ -838,36 +855,19 @@ TEST_F(DuelTest, TakingASeenBlowWithoutDefendingIsPruned) {
 }
 
 TEST_F(DuelTest, DownedFightersAreHitOnlyWhereTheSceneSaysSo) {
-  FightState state = facing(0.9f);
-  state.fighters[1].balance = 2;
-  state.fighters[1].launch = launch("duck", -10, state.fighters[1].launch.placement);
   for (const bool allowed : {false, true}) {
     setup_.settings.hits_on_downed = allowed;
-    Duel game(setup_, 240);
-    std::vector<DuelEvent> events;
-    game.record_into(&events);
-    DuelNode node = Duel::root(setup_, state);
-    node.side[1].flight.launch.end = 200;
-    node = game.apply(node, choice(node, 0, "body_cross")).node;
-    EXPECT_EQ(events.size(), allowed ? 1u : 0u);
-    EXPECT_FALSE(node.side[1].pending.valid());  // lies already: nothing is cut
+    const Crossed crossed = crossed_in("duck", -10, 2);
+    EXPECT_EQ(crossed.events.size(), allowed ? 1u : 0u);
+    EXPECT_FALSE(crossed.struck.pending.valid());  // lies already: nothing is cut
   }
 }
 
 // Who has just been struck has less tone, of what tiredness leaves.
 TEST_F(DuelTest, ABlowMeetsTheToneThatTheInterruptedActionLeaves) {
   const auto tone = [&](const char* interrupted, float condition) {
-    FightState state = facing(0.9f);
-    state.fighters[1].launch = launch(interrupted, 0, state.fighters[1].launch.placement);
     setup_.side[1].tone = condition;
-    Duel game(setup_, 240);
-    std::vector<DuelEvent> events;
-    game.record_into(&events);
-    DuelNode node = Duel::root(setup_, state);
-    node.side[1].flight.launch.end = 200;
-    game.apply(node, choice(node, 0, "body_cross"));
-    EXPECT_EQ(events.size(), 1u);
-    return events.empty() ? 0 : events.front().blow.tone;
+    return crossed_in(interrupted, 0, 0).events.at(0).blow.tone;
   };
   EXPECT_EQ(tone("duck", 1), 1);
   EXPECT_LT(tone("absorb_back", 1), 0.9f);
@@ -877,18 +877,11 @@ TEST_F(DuelTest, ABlowMeetsTheToneThatTheInterruptedActionLeaves) {
 TEST_F(DuelTest, WhoGetsUpAnswersABlowOnceItIsOnItsFeet) {
   setup_.settings.hits_on_downed = true;
   for (const char* action : {"get_up_back", "duck"}) {
-    FightState state = facing(0.9f);
-    state.fighters[1].balance = 2;
-    state.fighters[1].launch = launch(action, -170, state.fighters[1].launch.placement);
-    Duel game(setup_, 240);
-    std::vector<DuelEvent> events;
-    game.record_into(&events);
-    DuelNode node = Duel::root(setup_, state);
-    node.side[1].flight.launch.end = 200;
-    node = game.apply(node, choice(node, 0, "body_cross")).node;
-    ASSERT_EQ(events.size(), 1u) << action;
-    ASSERT_TRUE(on_its_feet(tables().body(), events[0].blow.struck.pose())) << action;
-    EXPECT_EQ(node.side[1].pending.valid(), std::string(action) == "get_up_back") << action;
+    const Crossed crossed = crossed_in(action, -170, 2);
+    ASSERT_EQ(crossed.events.size(), 1u) << action;
+    const Pose& pose = crossed.events[0].blow.struck.pose();
+    ASSERT_TRUE(on_its_feet(tables().body(), pose)) << action;
+    EXPECT_EQ(crossed.struck.pending.valid(), std::string(action) == "get_up_back") << action;
   }
 }
 
