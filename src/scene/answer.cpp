@@ -31,6 +31,12 @@ bool falls_already(const MotionLibrary& library, const BodyModel& body, const La
   return lies(body, input.pose) || library.action(cut.action).ends_lying != Lying::none;
 }
 
+bool rises(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+           const ImpactInput& input) {
+  return library.action(cut.action).kind == Kind::get_up && !lies(body, input.pose) &&
+         !on_its_feet(body, input.pose);
+}
+
 Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
                  const ImpactInput& input, const ImpactOutcome& decided) {
   const Stance stance = library.action(cut.action).stance;

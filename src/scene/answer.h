@@ -14,6 +14,11 @@ namespace ringcraft {
 bool falls_already(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
                    const ImpactInput& input);
 
+// Whether it is on the way up, neither lying nor on its feet: it goes on with that where it absorbs
+// the blow.
+bool rises(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+           const ImpactInput& input);
+
 struct Answer {
   Launch launch;                // of the response action, from where the cut action stands
   std::vector<Pose> simulated;  // world, one a tick from launch.start + 1 on

@@ -429,11 +429,10 @@ void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event
   if (!cuts && is_guard_part(blow.part)) {
     stage_.drive_back(target, blow.part, struck_velocity(blow));
   }
-  // Who is on the way up, neither lying nor on its feet, goes on with that where it absorbs.
-  const BodyModel& body = stage_.body(target);
-  const bool rises = action_of(target).kind == Kind::get_up && !lies(body, input.pose) &&
-                     !on_its_feet(body, input.pose);
-  if (!cuts || (rises && outcome.response == ResponseKind::absorb)) return;
+  const bool goes_on =
+      !cuts || (outcome.response == ResponseKind::absorb &&
+                rises(library_, stage_.body(target), fighter(target).launch, input));
+  if (goes_on) return;
   respond(target, input, outcome, event);
   standing_[target.at()].fell_upon = 1u << attacker.at();  // whose own blow still presses on
 }

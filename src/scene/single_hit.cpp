@@ -187,7 +187,9 @@ void strike(const MotionLibrary& library, const HitQuery& query, Showing& showin
   showing.note_hit();
 
   std::string response = library.action(cut.action).name;
-  if (cuts) {
+  const bool goes_on =
+      !cuts || (outcome.response == ResponseKind::absorb && rises(library, body, cut, input));
+  if (!goes_on) {
     const bool down = falls_already(library, body, cut, input);
     ImpactOutcome shows = outcome;
     shows.knockout = shows.knockout || showing.lies();  // who is out stays limp
@@ -200,7 +202,7 @@ void strike(const MotionLibrary& library, const HitQuery& query, Showing& showin
     event.action = response;
     answer.timeline.events.push_back(event);
     showing.answer(std::move(shown), outcome.knockout);
-  } else if (is_guard_part(input.blow.part)) {
+  } else if (!cuts && is_guard_part(input.blow.part)) {
     stage.drive_back(kStruck, input.blow.part, struck_velocity(input.blow));
   }
   if (++answer.hits > 1) return;

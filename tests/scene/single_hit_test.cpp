@@ -78,6 +78,14 @@ TEST(SingleHit, WhoSquatsTakesNoStep) {
       const ResponseKind response = impulse_step(posed->body, input).response;
       EXPECT_NE(response, ResponseKind::recovery_steps) << at << " s, " << size << " N s";
       fell += response == ResponseKind::knockdown ? 1 : 0;
+      if (response != ResponseKind::absorb || size > 10) continue;
+      HitQuery hit = query("get_up_back", at);  // goes on getting up
+      hit.part = Part::chest;
+      hit.impulse = {0, 0, -size};
+      const auto answer = simulate_hit(default_library(), hit);
+      ASSERT_TRUE(answer) << to_string(answer.error());
+      EXPECT_EQ(answer->response, "get_up_back");
+      EXPECT_EQ(answer->timeline.events.size(), 1u);
     }
   }
   EXPECT_GT(squats, 1);
