@@ -165,18 +165,19 @@ ValueRange Duel::range(const Node& node) const {
 
 void Duel::note_term(int who, Term term, double points, std::int32_t credited) const {
   if (terms_ == nullptr) return;
-  TermSum& sum = (*terms_)[static_cast<std::size_t>(who)][static_cast<std::size_t>(term)];
+  const std::size_t i = who == 0 ? 0 : 1;  // who replies is an opponent
+  TermSum& sum = (*terms_)[i][static_cast<std::size_t>(term)];
   sum.points += points;
   sum.credited += credited;
 }
 
 void Duel::credit(Node& node, int who, double points, Term term) const {
-  const auto i = static_cast<std::size_t>(std::min(who, 1));  // who replies is an opponent
+  const std::size_t i = who == 0 ? 0 : 1;  // who replies is an opponent
   const bool event = term == Term::hit || term == Term::defense;
   const std::int32_t credited =
       thousandths(points * (event ? setup_->factors.events[i] : setup_->factors.rest[i]));
   node.gained += credited;
-  note_term(static_cast<int>(i), term, points, credited);
+  note_term(who, term, points, credited);
 }
 
 void Duel::launch_forced(Node& node, int who, ActionId action) const {

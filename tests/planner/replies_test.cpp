@@ -205,6 +205,27 @@ TEST_F(RepliesTest, EveryValueLiesInItsRange) {
   EXPECT_GT(replied, 10);
 }
 
+TEST_F(RepliesTest, WhatAReplyEarnsStandsAmongTheOpponentsTerms) {
+  prune_nothing();
+  add_third(kBehind, 12);
+  std::vector<std::int32_t>& cost = setup_.repliers[0].choice.launch;
+  std::fill(cost.begin(), cost.end(), -700);
+  Duel game(setup_, 120);
+  const DuelNode node = idled(game, 60);
+  std::vector<DuelMove> moves;
+  game.moves(node, moves);
+  ASSERT_EQ(moves[0].side, 2);
+  DuelTerms terms{};
+  game.record_terms_into(&terms);
+  const DuelNode struck = game.step(node, moves[0]).node;
+  std::int32_t credited = 0;
+  for (const auto& side : terms) {
+    for (const TermSum& sum : side) credited += sum.credited;
+  }
+  EXPECT_EQ(struck.gained - node.gained, credited);
+  EXPECT_LT(terms[1][static_cast<std::size_t>(Term::control)].points, -.5);  // the cost of it
+}
+
 // Who goes on to walk into the opponent is to blame for it, whoever is asked on the way.
 TEST_F(RepliesTest, WhatThePlannerWalksIntoIsItsOwnFault) {
   add_third({0, -4, 0}, 12);
