@@ -246,7 +246,7 @@ tl::unexpected<Error> unknown_names(const std::vector<SkeletonProfile>& profiles
     std::vector<std::string> lacks;
     for (std::size_t j = 0; j < kJointCount; ++j)
       if (needed(joint_at(j)) && found[j] < 0) lacks.push_back("'" + profile.source[j] + "'");
-    const long have = kJointCount - std::count(found.begin(), found.end(), -1);
+    const long have = static_cast<long>(kJointCount) - std::count(found.begin(), found.end(), -1);
     if (std::pair(lacks.size(), -have) >= fewest) continue;
     fewest = {lacks.size(), -have};
     missing = std::move(lacks);
