@@ -180,10 +180,10 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   answer.impulse = glm::length(blow.impulse);
   ImpactInput input;
   input.pose = struck.pose();
-  input.pose_before = action.pose_at(struck.age - 1);
+  input.pose_before = action.pose_seen(struck.age - 1, struck.age);
   std::array<Pose, kImpulseStepTicks + 1> continued;
   for (Tick t = 0; t <= kImpulseStepTicks; ++t) {
-    continued[static_cast<std::size_t>(t)] = action.pose_at(struck.age + t);
+    continued[static_cast<std::size_t>(t)] = action.pose_seen(struck.age + t, struck.age);
   }
   input.continued = continued;
   input.blow = blow;

@@ -386,6 +386,11 @@ const ActionTable& MotionTables::at(ActionId action, float share) const {
   return *shown_[first == 0 || step >= kParts.size() ? action.at() : first + step];
 }
 
+Pose ActionTable::pose_seen(Tick age, Tick from) const {
+  const float turned = turn.empty() ? 0.0f : turn[at(age)] - turn[at(from)];
+  return turned == 0 ? pose_at(age) : placed(pose_at(age), {0, 0, turned});
+}
+
 ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
   const InFlight flight(*this, motion.launch);
   ActionTable table = *flight.table;
@@ -413,6 +418,11 @@ ActionTable MotionTables::in_flight(const MotionInFlight& motion) const {
     const auto at = static_cast<std::size_t>(age);
     table.pose[at] = placed(motion.poses[i], inverse(flight.frame_at(tick).placement()));
     set_frame(table, at, body_, table.pose[at]);
+  }
+  if (motion.launch.aim != 0) {
+    for (Tick age = 0; age <= table.length; ++age) {
+      table.turn.push_back(flight.frame_at(motion.launch.start + age).yaw);
+    }
   }
   set_times(table);
   return table;

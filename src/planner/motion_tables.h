@@ -146,6 +146,7 @@ struct ActionTable {
   std::vector<Box> box;                    // around the capsules
   std::vector<Sphere> bound;               // of the capsules
   std::vector<Pose> pose;                  // scaled to the body
+  std::vector<float> turn;  // rad: how far its space has turned, where it is of a motion in flight
   std::vector<StrikeTable> strikes;
   std::optional<Defense> defense;  // the action's, by ticks since the launch
   std::size_t first_strike = 0;    // its number among all strikes of the library's actions
@@ -167,6 +168,8 @@ struct ActionTable {
   const PartSpheres::Lanes& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
+  // The pose at `age` as it is seen from its space at `from`: a motion in flight may turn to its aim.
+  Pose pose_seen(Tick age, Tick from) const;
 
  private:
   std::size_t at(Tick age) const { return static_cast<std::size_t>(clamped(age)); }

@@ -188,8 +188,8 @@ TEST_F(ImpactMemoTest, ManyBlowsOnOnePoseAreAnsweredAsEachByItself) {
   EXPECT_GT(moved, 2u);  // only for these is the own motion asked
 }
 
-// A motion in flight is like no other: the blow on it is answered as it is, once, and forgotten
-// with it.
+// A motion in flight is like no other: the blow on it is answered as it is, turning to its aim or
+// not, once, and forgotten with it.
 TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
   ImpactMemo memo({&tables()});
   std::size_t same = 0, asked = 0, moved = 0;
@@ -198,7 +198,20 @@ TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
     for (Tick t = 0; t <= shown.length; ++t) shown.clip_ages.push_back(t);
     shown.motion = memo.begin_motion();
     shown.tone = shown.motion % 2 == 0 ? 1.0f : 0.65f;  // every other body is tired
+    const float turns = shown.motion % 3 == 0 ? 0.02f : 0.0f;  // rad a tick
+    for (Tick t = 0; t <= shown.length && turns != 0; ++t) {
+      shown.turn.push_back(turns * static_cast<float>(t));
+    }
+    const Tick now = one.blow.struck.age;
+    const auto seen = [&](Tick age) {
+      const auto ticks = static_cast<float>(shown.clamped(age) - now);
+      return placed(shown.pose_at(age), {0, 0, turns * ticks});
+    };
     one.blow.struck.table = &shown;
+    one.input.pose_before = seen(now - 1);
+    for (Tick k = 0; k <= kImpulseStepTicks; ++k) {
+      one.continued[static_cast<std::size_t>(k)] = seen(now + k);
+    }
     one.input.continued = one.continued;
     one.input.tone = one.blow.tone = shown.tone;
     const std::uint64_t before = memo.counts().entries;

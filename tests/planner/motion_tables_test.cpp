@@ -219,6 +219,35 @@ TEST_F(MotionsInFlight, ThatAreAsTheirClipsHaveTheirTables) {
   }
 }
 
+// Who turns to its aim is struck as it turns: what came before and what follows are seen from where
+// its action space is at the blow.
+TEST_F(MotionsInFlight, AreSeenAsTheyTurn) {
+  MotionInFlight motion = as_the_clip();
+  motion.launch.aim = radians(40);
+  const InFlight flight(tables(), motion.launch);
+  const Tick start = motion.launch.start, length = flight.table->length;
+  const auto frame = [&](Tick age) { return flight.frame_at(start + age).placement(); };
+  for (Tick t = 0; t <= length; ++t) {
+    motion.poses[static_cast<std::size_t>(t)] = placed(flight.table->pose_at(t), frame(t));
+  }
+  const ActionTable shown = tables().in_flight(motion);
+  float turned = 0;
+  for (Tick now = 1; now < length; ++now) {
+    for (const Tick age : {now - 1, now, std::min(length, now + 12)}) {
+      const Pose is = placed(shown.pose_seen(age, now), frame(now)),
+                 still = placed(shown.pose_at(age), frame(now)),
+                 was_shown = motion.poses[static_cast<std::size_t>(age)];
+      const auto shape = [&](const Pose& pose) {
+        return capsules(tables().body(), world_pose(tables().body().skeleton, pose));
+      };
+      const auto off = [&](const Pose& pose) { return apart(shape(pose), shape(was_shown)); };
+      EXPECT_LT(off(is), 1e-4f) << now << " " << age;
+      turned = std::max(turned, off(still));
+    }
+  }
+  EXPECT_GT(turned, 0.1f);
+}
+
 // A decision reckons with the root that the fight has: at the pace of the launch, aim and all.
 TEST_F(MotionsInFlight, HaveTheRootOfTheFightAtAnyPace) {
   for (const float factor : {0.8f, 1.2f}) {
