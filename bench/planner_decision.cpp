@@ -44,7 +44,7 @@ void decide(benchmark::State& bench, bool warm) {
   auto planner = std::make_unique<Planner>(library(), contenders(horizon), PlanSettings{}, 1);
   if (warm) {
     for (std::uint64_t seed = 0; seed < kStates; ++seed) {
-      planner->plan(state_of(seed), FighterId(0), 0);
+      planner->plan(state_of(seed), FighterId(0));
     }
   }
   std::uint64_t seed = 0, nodes = 0;
@@ -54,7 +54,7 @@ void decide(benchmark::State& bench, bool warm) {
       planner = std::make_unique<Planner>(library(), contenders(horizon), PlanSettings{}, 1);
       bench.ResumeTiming();
     }
-    nodes += planner->plan(state_of(seed++ % kStates), FighterId(0), 0).record.nodes;
+    nodes += planner->plan(state_of(seed++ % kStates), FighterId(0)).record.nodes;
   }
   bench.counters["nodes"] =
       benchmark::Counter(static_cast<double>(nodes), benchmark::Counter::kAvgIterations);

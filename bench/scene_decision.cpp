@@ -51,7 +51,7 @@ void decisions_known(benchmark::State& bench) {
   const auto decide = [&] {
     nodes = 0, values = 0, horizons = 0;
     for (const Moment& one : all.moments) {
-      const Plan plan = all.planner->plan(one.state, one.fighter, one.last_contact);
+      const Plan plan = all.planner->plan(one.state, one.fighter);
       nodes += plan.record.nodes;
       horizons += plan.record.horizon;
       values += plan.record.lines.empty() ? 0 : plan.record.lines.front().score;

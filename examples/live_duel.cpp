@@ -54,7 +54,7 @@ void frame(const MotionLibrary& library, Planner& planner, FightState& state,
     if (due > end) break;
     state.now = std::max(state.now, due);
     const auto begin = Clock::now();
-    const Plan plan = planner.plan(state, fighter, 0, limits);
+    const Plan plan = planner.plan(state, fighter, limits);
     const std::chrono::duration<double, std::milli> took = Clock::now() - begin;
     note_expanded(state, fighter);
     planner.note_launch(fighter, plan.launch.action);
@@ -98,7 +98,7 @@ int main(int count, char** arguments) {
   while (state.now < ticks(length)) frame(*library, planner, state, limits, shown);
 
   paused = true;
-  const Plan hurried = planner.plan(state, next_to_act(state), 0, limits);
+  const Plan hurried = planner.plan(state, next_to_act(state), limits);
   fmt::print("interrupted at once: {} after {:.2f} s of look-ahead\n",
              library->action(hurried.launch.action).name, seconds(hurried.record.horizon));
   fmt::print(

@@ -65,7 +65,7 @@ int main(int count, char** arguments) {
   const FightState& state = *begun;
   fmt::print("blue is {} ticks into {}; red decides\n", state.now - state.fighters[1].launch.start,
              library->action(state.fighters[1].launch.action).name);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   const DecisionRecord& record = plan.record;
   fmt::print("looked {:.2f} s ahead: {} nodes, {} leaves, {} forced\n", seconds(record.horizon),
              record.nodes, record.leaves, record.forced_nodes);

@@ -43,7 +43,7 @@ std::uint64_t FightState::hash() const {
         .add(fighter.health)
         .add(fighter.balance)
         .add(fighter.opponent.value);
-    hasher.add(fighter.last_at_tie);
+    hasher.add(fighter.last_contact).add(fighter.last_at_tie);
   }
   return hasher.digest();
 }

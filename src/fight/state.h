@@ -43,6 +43,7 @@ struct FighterState {
   std::int32_t health = 100'000;  // thousandths of a point
   std::int32_t balance = 0;       // 0 steady, 1 staggering (recovery steps), 2 down
   FighterId opponent;             // the chief one
+  Tick last_contact = 0;          // when it last struck somebody, or was struck
   bool last_at_tie = false;       // was expanded second at the last tie: goes first at the next
 
   bool operator==(const FighterState&) const = default;

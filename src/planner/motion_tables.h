@@ -168,7 +168,8 @@ struct ActionTable {
   const PartSpheres::Lanes& travel_at(Tick age) const { return travel[at(age)]; }
   const Box& box_at(Tick age) const { return box[at(age)]; }
   const Pose& pose_at(Tick age) const { return pose[at(age)]; }
-  // The pose at `age` as it is seen from its space at `from`: a motion in flight may turn to its aim.
+  // The pose at `age` as it is seen from its space at `from`: a motion in flight may turn to its
+  // aim.
   Pose pose_seen(Tick age, Tick from) const;
 
  private:

@@ -78,10 +78,9 @@ struct Planner::Inside {
 
   Inside(const MotionLibrary& of, std::vector<Contender> who, PlanSettings how, std::uint64_t s,
          std::shared_ptr<ImpactStore> store);
-  DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent,
-                  Tick last_contact) const;
-  void add_repliers(DuelSetup& duel, const FightState& state, Tick last_contact) const;
-  SideSetup side_setup(FighterId fighter, FighterId other, double quiet, double apart) const;
+  DuelSetup setup(const FightState& state, FighterId fighter, FighterId opponent) const;
+  void add_repliers(DuelSetup& duel, const FightState& state) const;
+  SideSetup side_setup(const FightState& state, FighterId fighter, FighterId other) const;
   const ActionTable* in_flight(FighterId fighter, const Launch& launch) const;
   FighterId opponent_of(const FightState& state, FighterId fighter) const;
   Vec3 root_of(const FightState& state, FighterId fighter) const;
@@ -101,16 +100,16 @@ struct Planner::Inside {
     DuelSetup setup;
   };
   std::optional<FeintAnswer> feint_of(const FightState& state, FighterId fighter,
-                                      FighterId opponent, Tick last_contact) const;
+                                      FighterId opponent) const;
   // Nothing where there is nobody to fight.
-  std::optional<View> view(const FightState& truth, FighterId fighter, Tick last_contact,
+  std::optional<View> view(const FightState& truth, FighterId fighter,
                            bool weigh_feints = true) const {
     const FighterId opponent = opponent_of(truth, fighter);
     if (!opponent.valid()) return std::nullopt;
     FightState seen = as_seen(truth, fighter, opponent);
-    DuelSetup duel = setup(seen, fighter, opponent, last_contact);
-    if (settings.replies) add_repliers(duel, seen, last_contact);
-    if (weigh_feints) duel.feint = feint_of(seen, fighter, opponent, last_contact);
+    DuelSetup duel = setup(seen, fighter, opponent);
+    if (settings.replies) add_repliers(duel, seen);
+    if (weigh_feints) duel.feint = feint_of(seen, fighter, opponent);
     return View{opponent, std::move(seen), std::move(duel)};
   }
 };
@@ -222,7 +221,7 @@ FightState Planner::Inside::as_seen(const FightState& state, FighterId fighter,
 // opponent's own plan against the attack is: who feints puts itself in the other's place. Of
 // several the one that was used least, for each costs a search.
 std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, FighterId fighter,
-                                                     FighterId opponent, Tick last_contact) const {
+                                                     FighterId opponent) const {
   const Launch& self = state.fighters[fighter.at()].launch;
   const FighterState& other = state.fighters[opponent.at()];
   const Tick acts = other.launch.end;
@@ -254,15 +253,16 @@ std::optional<FeintAnswer> Planner::Inside::feint_of(const FightState& state, Fi
   FightState then = state;
   then.now = acts;
   then.fighters[fighter.at()].launch = taken_for(*best, attack, library.action(attack), acts);
-  const DuelSetup against = setup(then, opponent, fighter, last_contact);
+  const DuelSetup against = setup(then, opponent, fighter);
   SearchPool<Duel> pool;
   const Searched searched = search_ahead(against, then, SoftChoice(0, 0), {}, pool);
   if (searched.roots.empty()) return std::nullopt;
   return FeintAnswer{best->action, state.now, acts, searched.roots.front().move.action};
 }
 
-SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double quiet,
-                                      double apart) const {
+SideSetup Planner::Inside::side_setup(const FightState& state, FighterId fighter,
+                                      FighterId other) const {
+  const double quiet = seconds(std::max(0, state.now - state.fighters[fighter.at()].last_contact));
   SideSetup side;
   side.body = body_of[fighter.at()];
   side.tables = tables[static_cast<std::size_t>(side.body)].get();
@@ -272,7 +272,8 @@ SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double
   }
   side.id = fighter;
   side.style = &contenders[fighter.at()].style;
-  side.weights = weights_at(*side.style, quiet, apart, side.tables->body().scale);
+  side.weights =
+      weights_at(*side.style, quiet, apart(state, fighter, other), side.tables->body().scale);
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
     const Action& action = library.actions()[i];
     const double points = launch_points(side.weights, *side.style, action, use[fighter.at()][i]);
@@ -285,13 +286,11 @@ SideSetup Planner::Inside::side_setup(FighterId fighter, FighterId other, double
   return side;
 }
 
-DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, FighterId opponent,
-                                 Tick last_contact) const {
-  const double quiet = seconds(std::max(0, state.now - last_contact));
-  const double far = apart(state, fighter, opponent);
+DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter,
+                                 FighterId opponent) const {
   DuelSetup setup;
-  setup.side[0] = side_setup(fighter, opponent, quiet, far);
-  setup.side[1] = side_setup(opponent, fighter, quiet, far);
+  setup.side[0] = side_setup(state, fighter, opponent);
+  setup.side[1] = side_setup(state, opponent, fighter);
   for (SideSetup& side : setup.side) {
     side.in_flight = in_flight(side.id, state.fighters[side.id.at()].launch);
   }
@@ -317,10 +316,8 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter, Fig
 }
 
 // Of the others, those that stand and whose chief opponent the planner is.
-void Planner::Inside::add_repliers(DuelSetup& duel, const FightState& state,
-                                   Tick last_contact) const {
+void Planner::Inside::add_repliers(DuelSetup& duel, const FightState& state) const {
   const FighterId self = duel.side[0].id;
-  const double quiet = seconds(std::max(0, state.now - last_contact));
   for (std::size_t k = 0; k < duel.others.size(); ++k) {
     const Bystander& one = duel.others[k];
     const FighterState& fighter = state.fighters[one.id.at()];
@@ -328,7 +325,7 @@ void Planner::Inside::add_repliers(DuelSetup& duel, const FightState& state,
     Replier replier;
     replier.other = static_cast<int>(k);
     replier.now.flight = one.flight;
-    replier.choice = side_setup(one.id, self, quiet, apart(state, one.id, self));
+    replier.choice = side_setup(state, one.id, self);
     duel.repliers.push_back(std::move(replier));
   }
   std::stable_sort(duel.repliers.begin(), duel.repliers.end(),
@@ -368,16 +365,15 @@ Plan resting(const MotionLibrary& library, const FightState& state, FighterId fi
 
 }  // namespace
 
-Plan Planner::plan(const FightState& state, FighterId fighter, Tick last_contact) {
-  return plan(state, fighter, last_contact, {});
+Plan Planner::plan(const FightState& state, FighterId fighter) {
+  return plan(state, fighter, {});
 }
 
-Plan Planner::plan(const FightState& truth, FighterId fighter, Tick last_contact,
-                   const PlanLimits& limits) {
+Plan Planner::plan(const FightState& truth, FighterId fighter, const PlanLimits& limits) {
   Inside& in = *inside_;
   const float scale = in.tables[static_cast<std::size_t>(in.body_of[fighter.at()])]->body().scale;
   // Another's plan is a search of its own: there is no time for it under a limit.
-  const std::optional<Inside::View> view = in.view(truth, fighter, last_contact, !limits.any());
+  const std::optional<Inside::View> view = in.view(truth, fighter, !limits.any());
   if (!view) return resting(in.library, truth, fighter, scale);
   const FightState& state = view->state;
   const DuelSetup& setup = view->setup;
@@ -411,7 +407,7 @@ std::vector<Event> Planner::foresee(const FightState& state, FighterId fighter) 
   const Inside& in = *inside_;
   const FighterId opponent = in.opponent_of(state, fighter);
   if (!opponent.valid()) return {};
-  const DuelSetup setup = in.setup(state, fighter, opponent, state.now);
+  const DuelSetup setup = in.setup(state, fighter, opponent);
   Duel game(setup, state.now + kLongestHorizon);
   std::vector<DuelEvent> met;
   game.record_into(&met);
@@ -425,23 +421,23 @@ std::vector<Event> Planner::foresee(const FightState& state, FighterId fighter) 
   return events;
 }
 
-DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick last_contact,
-                           Tick horizon, std::size_t most_nodes) const {
-  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+DecisionTree Planner::tree(const FightState& state, FighterId fighter, Tick horizon,
+                           std::size_t most_nodes) const {
+  const std::optional<Inside::View> view = inside_->view(state, fighter);
   return view ? expand_tree(view->setup, view->state, horizon, most_nodes) : DecisionTree{};
 }
 
-SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick last_contact,
-                           Tick horizon, const SearchTrial& trial) const {
-  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+SearchTally Planner::tally(const FightState& state, FighterId fighter, Tick horizon,
+                           const SearchTrial& trial) const {
+  const std::optional<Inside::View> view = inside_->view(state, fighter);
   if (!view) return {};
   return tally_of(view->setup, view->state, horizon, trial,
                   inside_->preference(view->state, fighter));
 }
 
-TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick last_contact,
-                         Tick horizon, int dives) const {
-  const std::optional<Inside::View> view = inside_->view(state, fighter, last_contact);
+TreeShape Planner::shape(const FightState& state, FighterId fighter, Tick horizon,
+                         int dives) const {
+  const std::optional<Inside::View> view = inside_->view(state, fighter);
   if (!view) return {};
   const auto seed = derived_seed(inside_->seed, "shape", static_cast<std::uint64_t>(state.now));
   return shape_of(view->setup, view->state, horizon, dives, seed);

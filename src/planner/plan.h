@@ -78,16 +78,14 @@ class Planner {
 
   // The decision of `fighter`, who acts now, against its opponent; the others are obstacles, and
   // one of those that fight it may reply (PlanSettings::replies). An opponent's feint that cannot
-  // be told from its attack yet is taken for the attack. `last_contact` is the tick of the fight's
-  // last contact (0 where there was none): boredom counts from it. Where nobody is to be fought,
-  // the launch is of the first action that may follow, or the last one held for 0.5 s more where
-  // none may, and the record is empty.
-  Plan plan(const FightState& state, FighterId fighter, Tick last_contact);
+  // be told from its attack yet is taken for the attack. Boredom counts from each fighter's own
+  // last contact. Where nobody is to be fought, the launch is of the first action that may follow,
+  // or the last one held for 0.5 s more where none may, and the record is empty.
+  Plan plan(const FightState& state, FighterId fighter);
 
   // The same in a game's loop: looks ahead as far as the limits allow, in steps, and keeps the last
   // horizon that was finished; where not even the shortest was, one step of every move is weighed.
-  Plan plan(const FightState& state, FighterId fighter, Tick last_contact,
-            const PlanLimits& limits);
+  Plan plan(const FightState& state, FighterId fighter, const PlanLimits& limits);
 
   // What the strikes of `fighter` in flight will do to its opponent, as the tree tells it: until
   // the first action of the two ends or is cut.
@@ -96,15 +94,14 @@ class Planner {
   // The tree of the same decision, written out to `horizon` ticks from now (as
   // Plan::record.horizon says) and to at most `most_nodes` nodes. Empty where nobody is to be
   // fought.
-  DecisionTree tree(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
+  DecisionTree tree(const FightState& state, FighterId fighter, Tick horizon,
                     std::size_t most_nodes) const;
 
   // One search of the same decision to `horizon` ticks from now, without a limit and on one thread;
   // and what the tree that it searches looks like, by `dives` random ways down. For studies.
-  SearchTally tally(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
+  SearchTally tally(const FightState& state, FighterId fighter, Tick horizon,
                     const SearchTrial& trial) const;
-  TreeShape shape(const FightState& state, FighterId fighter, Tick last_contact, Tick horizon,
-                  int dives) const;
+  TreeShape shape(const FightState& state, FighterId fighter, Tick horizon, int dives) const;
 
   // From now on plans add the time of their parts to `cost` (null: no longer). For one thread.
   void measure(SearchCost* cost);

@@ -181,13 +181,13 @@ Plan Bout::decide(FighterId id) {
   const auto begin = Clock::now();
   show_planner(id);
   show_planner(fighter(id).opponent);
-  Plan plan = planner_->plan(state_, id, last_contact_);
+  Plan plan = planner_->plan(state_, id);
   record_.decision_ms.push_back(microseconds_since(begin) / 1000);
   return plan;
 }
 
 DecisionTree Bout::tree(FighterId id, const Plan& plan, std::size_t most_nodes) const {
-  return planner_->tree(state_, id, last_contact_, plan.record.horizon, most_nodes);
+  return planner_->tree(state_, id, plan.record.horizon, most_nodes);
 }
 
 void Bout::commit(FighterId id, const Plan& plan) {
@@ -375,7 +375,7 @@ void Bout::commit_falls() {
 
 // The blow as an event, what it costs, and the response.
 void Bout::deliver(FighterId attacker, FighterId target, const Blow& blow, Event event) {
-  last_contact_ = state_.now;
+  fighter(attacker).last_contact = fighter(target).last_contact = state_.now;
 
   // 1. What the struck body does with the impulse in 100 ms.
   ImpactInput input;

@@ -18,7 +18,6 @@ class Bout {
   ~Bout();
 
   const FightState& state() const { return state_; }
-  Tick last_contact() const { return last_contact_; }
   bool over() const;
   bool must_get_up(FighterId fighter) const;  // fell, and its time on the ground is over
   bool is_out(FighterId fighter) const;       // knocked out: lies until the end
@@ -87,7 +86,6 @@ class Bout {
   std::unique_ptr<Planner> planner_;
   Stage stage_;
   FightRecord record_;
-  Tick last_contact_ = 0;
   bool launched_ = true;  // since the tree was asked what will happen
   Tick end_;
 };

@@ -9,7 +9,7 @@ std::vector<Moment> moments_of(const MotionLibrary& library, const SceneFile& sc
   std::vector<Moment> all;
   Bout bout(library, scene, options);
   while (const auto fighter = run_to_decision(bout)) {
-    Moment moment{bout.state(), *fighter, bout.last_contact(), {}, 0};
+    Moment moment{bout.state(), *fighter, {}, 0};
     const Plan plan = bout.decide(*fighter);
     moment.state = bout.state();  // deciding names the opponent
     moment.launched = plan.launch.action;

@@ -10,7 +10,6 @@ namespace ringcraft {
 struct Moment {
   FightState state;
   FighterId fighter;
-  Tick last_contact = 0;
   ActionId launched;  // what it chose
   Tick horizon = 0;   // how far it looked
 };

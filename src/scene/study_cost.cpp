@@ -44,9 +44,9 @@ std::vector<Found> found_of(const MotionLibrary& library, const SceneFile& scene
     PlanLimits until_told;  // a decision may take minutes
     until_told.stop = run.interrupted;
     for (const Moment& moment : moments) {
-      planner.plan(moment.state, moment.fighter, moment.last_contact, until_told);
+      planner.plan(moment.state, moment.fighter, until_told);
       const std::clock_t begin = std::clock();
-      const Plan plan = planner.plan(moment.state, moment.fighter, moment.last_contact, until_told);
+      const Plan plan = planner.plan(moment.state, moment.fighter, until_told);
       if (run.stopped()) return found;
       found[h].ms.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
       found[h].nodes.push_back(static_cast<double>(plan.record.nodes));

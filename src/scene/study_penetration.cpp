@@ -48,7 +48,7 @@ Planned plans_of(const MotionLibrary& library, const SceneFile& scene,
   for (const bool timed : {false, true}) {  // the second time the memo holds every impulse step
     for (const Moment& one : moments) {
       const auto begin = std::chrono::steady_clock::now();
-      const Plan plan = planner.plan(one.state, one.fighter, one.last_contact);
+      const Plan plan = planner.plan(one.state, one.fighter);
       const std::chrono::duration<double, std::milli> took =
           std::chrono::steady_clock::now() - begin;
       if (timed) {

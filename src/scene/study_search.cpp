@@ -86,7 +86,7 @@ Timed timed(const MotionLibrary& library, const SceneFile& scene,
     planner.measure(parts ? &cost : nullptr);
     const auto began = std::chrono::steady_clock::now();
     const std::clock_t begin = std::clock();
-    const Plan plan = planner.plan(moment.state, moment.fighter, moment.last_contact);
+    const Plan plan = planner.plan(moment.state, moment.fighter);
     const double ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - began;
     // A busy machine takes the processor away: parts are told by the wall's clock.
@@ -187,8 +187,7 @@ Study search_study(const MotionLibrary& library, const SceneFile& scene, const S
   std::vector<double> branching, depth, whole, minimal;
   run.say("devices");
   again(library, scene, bouts, store, run, [&](Planner& planner, const Moment& m) {
-    const TreeShape shape =
-        planner.shape(m.state, m.fighter, m.last_contact, m.horizon, search.dives);
+    const TreeShape shape = planner.shape(m.state, m.fighter, m.horizon, search.dives);
     if (shape.depth < 1) return;  // nothing to choose
     const double least = knuth_moore_leaves(shape.branching, shape.depth);
     branching.push_back(shape.branching);
@@ -197,8 +196,7 @@ Study search_study(const MotionLibrary& library, const SceneFile& scene, const S
     minimal.push_back(least);
     std::int32_t value = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const SearchTally tally =
-          planner.tally(m.state, m.fighter, m.last_contact, m.horizon, all[i].trial);
+      const SearchTally tally = planner.tally(m.state, m.fighter, m.horizon, all[i].trial);
       if (i == 0) value = tally.value;
       Visited& one = visited[i];
       const auto leaves = static_cast<double>(std::max<std::uint64_t>(1, tally.counts.leaves));

@@ -186,7 +186,7 @@ TEST_F(StateTest, TieOfThreeLetsTheOtherTwoGoFirstNextTime) {
 
 TEST_F(StateTest, HashSeesEveryField) {
   const FightState base = state({20, 30});
-  std::vector<FightState> changed(11, base);
+  std::vector<FightState> changed(12, base);
   changed[0].now = 1;
   changed[1].fighters[0].launch.placement.x = 0.001f;
   changed[2].fighters[1].launch.aim = 0.1f;
@@ -199,6 +199,7 @@ TEST_F(StateTest, HashSeesEveryField) {
   changed[9].fighters[1].launch.share = 0.5f;
   changed[10].fighters[0].launch.pace =
       Pace(library().action(changed[10].fighters[0].launch.action), 0.9f);
+  changed[11].fighters[0].last_contact = 1;
   std::vector<std::uint64_t> hashes{base.hash()};
   for (const FightState& one : changed) {
     EXPECT_FALSE(one == base);

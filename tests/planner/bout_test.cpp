@@ -41,7 +41,6 @@ class BoutTest : public DuelFixture {
     std::vector<DuelEvent> events;
     world.record_into(&events);
     DuelNode node = Duel::root(setup, state);
-    Tick last_contact = 0;
     while (node.now < ticks(length)) {
       std::vector<DuelMove> moves;
       if (world.actor(node) == Actor::forced) {
@@ -54,7 +53,7 @@ class BoutTest : public DuelFixture {
           state.fighters[i].balance = node.side[i].balance;
           state.fighters[i].last_at_tie = node.side[i].last_at_tie;
         }
-        const ActionId action = planner.plan(state, FighterId(side), last_contact).launch.action;
+        const ActionId action = planner.plan(state, FighterId(side)).launch.action;
         planner.note_launch(FighterId(side), action);
         const Followers& follow = setup.side[side].launches().after(*node.side[side].flight.table);
         moves.push_back({action, static_cast<std::uint8_t>(side), false, follow.find(action)});
@@ -64,7 +63,7 @@ class BoutTest : public DuelFixture {
       node.side[0].health = node.side[1].health = 100'000;  // health does not decide here
       for (const DuelEvent& event : events) {
         if (event.kind == DuelEvent::Kind::evaded) continue;
-        last_contact = event.tick;
+        state.fighters[0].last_contact = state.fighters[1].last_contact = event.tick;
         Tally& attacker = tally[static_cast<std::size_t>(event.attacker)];
         attacker.hits += event.kind == DuelEvent::Kind::hit ? 1 : 0;
         attacker.damage += event.answer.damage / 1000.0;

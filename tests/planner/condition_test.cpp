@@ -103,7 +103,7 @@ TEST_F(ConditionTest, TheTreeRunsAtThePaceOfWhoLaunches) {
   for (const std::size_t who : {0, 1}) {
     Planner planner(library(), contenders(2, style), {}, 5, store);
     planner.set_condition(FighterId(who), tired);
-    const DecisionTree tree = planner.tree(state, FighterId(0), 0, 120, 200);
+    const DecisionTree tree = planner.tree(state, FighterId(0), 120, 200);
     int slow = 0, others = 0;
     for (const TreeNode& node : tree.nodes) {
       const TreeEdge& edge = node.edge;
@@ -137,7 +137,7 @@ TEST_F(ConditionTest, APlanSparesTheHurtArm) {
     planner.set_condition(FighterId(0), condition);
     std::array<int, kLimbs> count{};
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
-      const Plan plan = planner.plan(random_state(seed), FighterId(0), 0);
+      const Plan plan = planner.plan(random_state(seed), FighterId(0));
       const Action& action = library().action(plan.launch.action);
       if (action.strikes.empty()) continue;
       ++count.at(*limb_of(*part_of(action.strikes.front().joint)));
@@ -253,7 +253,7 @@ TEST_F(ConditionTest, OnlyWhoLearnsPlansOtherwise) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const FightState state = random_state(seed);
     const auto score = [&](Planner& of, std::size_t who) {
-      return of.plan(state, FighterId(who), 0).record.lines.front().score;
+      return of.plan(state, FighterId(who)).record.lines.front().score;
     };
     student_changed += score(planner, 0) != score(fresh, 0);
     other_changed += score(planner, 1) != score(fresh, 1);
@@ -286,7 +286,7 @@ TEST_F(ConditionTest, AFeintIsTakenForItsAttack) {
     return state;
   };
   const auto score = [&](ActionId action, Tick age) {
-    return planner.plan(in_flight(action, age), FighterId(0), 0).record.lines.front().score;
+    return planner.plan(in_flight(action, age), FighterId(0)).record.lines.front().score;
   };
   ASSERT_LT(seen_until, kWith.action(feint).length());
   EXPECT_EQ(score(feint, seen_until - 1), score(hook, seen_until - 1));
@@ -403,7 +403,7 @@ TEST_F(FeignedTest, ThePlanKnowsWhatTheOtherWillDo) {
   settings.node_limit = 0;
   const auto store = std::make_shared<ImpactStore>();
   const auto expected = [&](Planner& planner, const FightState& state) {
-    const DecisionTree tree = planner.tree(state, FighterId(0), 0, 96, 200);
+    const DecisionTree tree = planner.tree(state, FighterId(0), 96, 200);
     std::vector<std::string> answers;
     for (const int child : tree.nodes[0].children) {
       if (tree.nodes[static_cast<std::size_t>(child)].edge.action != "hook_feint") continue;
@@ -420,7 +420,7 @@ TEST_F(FeignedTest, ThePlanKnowsWhatTheOtherWillDo) {
     then.now = 12;
     then.fighters[0].launch =
         following(with(), state.fighters[0].launch, feint_, 0, {0, 0, distance / 2}, 1, kMostAim);
-    const ActionId answer = planner.plan(then, FighterId(1), 0).launch.action;
+    const ActionId answer = planner.plan(then, FighterId(1)).launch.action;
     EXPECT_EQ(expected(planner, state), std::vector{with().action(answer).name}) << distance;
   }
   const Tick seen_until = with().action(feint_).feint->parted + ticks(style.late_sight_s);

@@ -577,10 +577,8 @@ TEST_F(DuelTest, WhoLikesToAttackDoesNotFightTheAir) {
   style.temperature = 0;
   style.attack_bonus = 50;
   Planner planner(library(), contenders(2, style), {}, 1);
-  EXPECT_FALSE(
-      library().action(planner.plan(facing(2.5f), FighterId(0), 0).launch.action).attacks());
-  EXPECT_TRUE(
-      library().action(planner.plan(facing(1.0f), FighterId(0), 0).launch.action).attacks());
+  EXPECT_FALSE(library().action(planner.plan(facing(2.5f), FighterId(0)).launch.action).attacks());
+  EXPECT_TRUE(library().action(planner.plan(facing(1.0f), FighterId(0)).launch.action).attacks());
 }
 
 TEST_F(DuelTest, NobodyBoxesTheAir) {
@@ -1042,7 +1040,7 @@ TEST_F(DuelTest, PlanLaunchesAPathsFirstActionAndNamesTheRest) {
   PlanSettings settings;
   settings.prune.out_of_reach = false;
   Planner planner(low, contenders(2, style), settings, 1);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   EXPECT_EQ(low.action(plan.launch.action).name, "sink");
   EXPECT_EQ(plan.then, std::vector<ActionId>{low.find("low_cross")});
   const Line& line = plan.record.lines[static_cast<std::size_t>(plan.record.chosen)];

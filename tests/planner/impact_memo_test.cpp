@@ -197,7 +197,7 @@ TEST_F(ImpactMemoTest, BlowsOnAMotionInFlightAreNotQuantised) {
     ActionTable shown = *one.blow.struck.table;
     for (Tick t = 0; t <= shown.length; ++t) shown.clip_ages.push_back(t);
     shown.motion = memo.begin_motion();
-    shown.tone = shown.motion % 2 == 0 ? 1.0f : 0.65f;  // every other body is tired
+    shown.tone = shown.motion % 2 == 0 ? 1.0f : 0.65f;         // every other body is tired
     const float turns = shown.motion % 3 == 0 ? 0.02f : 0.0f;  // rad a tick
     for (Tick t = 0; t <= shown.length && turns != 0; ++t) {
       shown.turn.push_back(turns * static_cast<float>(t));

@@ -49,7 +49,7 @@ TEST_F(PlanTest, SameForAnyNumberOfThreads) {
       b(library(), contenders(2, quick()), many, 5);
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const FightState state = random_state(seed);
-    expect_same(a.plan(state, FighterId(0), 0), b.plan(state, FighterId(0), 0));
+    expect_same(a.plan(state, FighterId(0)), b.plan(state, FighterId(0)));
     EXPECT_EQ(a.memo_counts().hits, b.memo_counts().hits);
     EXPECT_EQ(a.memo_counts().misses, b.memo_counts().misses);
   }
@@ -58,10 +58,10 @@ TEST_F(PlanTest, SameForAnyNumberOfThreads) {
 TEST_F(PlanTest, SameSeedTwiceAndAWarmMemoChangesNothing) {
   const FightState state = random_state(11);
   Planner a(library(), contenders(2, quick()), {}, 5), b(library(), contenders(2, quick()), {}, 5);
-  b.plan(random_state(12), FighterId(1), 0);  // fills the memo
-  const Plan first = a.plan(state, FighterId(0), 0);
-  expect_same(first, b.plan(state, FighterId(0), 0));
-  expect_same(first, a.plan(state, FighterId(0), 0));
+  b.plan(random_state(12), FighterId(1));  // fills the memo
+  const Plan first = a.plan(state, FighterId(0));
+  expect_same(first, b.plan(state, FighterId(0)));
+  expect_same(first, a.plan(state, FighterId(0)));
   EXPECT_EQ(a.memo_counts().misses > 0, true);
 }
 
@@ -73,7 +73,7 @@ TEST_F(PlanTest, AFighterOfHalfTheSizeStandsHalfAsFarOff) {
   const auto place = [&](float scale, float apart) {
     std::vector<Contender> two = contenders(2, style);
     two[0].body = make_body({.height = scale * kCanonicalHeight});
-    const Plan plan = Planner(library(), two, {}, 1).plan(facing(apart), FighterId(0), 0);
+    const Plan plan = Planner(library(), two, {}, 1).plan(facing(apart), FighterId(0));
     return (*plan.record.lines.front().terms)[0].location;
   };
   EXPECT_GT(place(1, 1.4f), place(1, 0.7f));
@@ -87,11 +87,11 @@ TEST_F(PlanTest, SeedsChooseDifferentlyAmongNearlyEqualMovesOnly) {
   std::set<std::string> chosen;
   Style best = soft;
   best.temperature = 0;
-  const Plan sure = Planner(library(), contenders(2, best), {}, 1).plan(state, FighterId(0), 0);
+  const Plan sure = Planner(library(), contenders(2, best), {}, 1).plan(state, FighterId(0));
   const double least = sure.record.lines[0].score - 1000 * SoftChoice::kMostBelow * 3;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Planner planner(library(), contenders(2, soft), {}, seed);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
+    const Plan plan = planner.plan(state, FighterId(0));
     const Line& line = plan.record.lines[static_cast<std::size_t>(plan.record.chosen)];
     chosen.insert(line.actions.front());
     EXPECT_FALSE(line.at_most);
@@ -101,7 +101,7 @@ TEST_F(PlanTest, SeedsChooseDifferentlyAmongNearlyEqualMovesOnly) {
   soft.temperature = 0;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     Planner planner(library(), contenders(2, soft), {}, seed);
-    EXPECT_EQ(planner.plan(state, FighterId(0), 0).record.chosen, 0);
+    EXPECT_EQ(planner.plan(state, FighterId(0)).record.chosen, 0);
   }
 }
 
@@ -118,7 +118,7 @@ TEST_F(PlanTest, AlphaBetaAndMinimaxPlanTheSame) {
   Planner a(library(), contenders(2, style), plain, 1), b(library(), contenders(2, style), fast, 1);
   for (std::uint64_t seed = 20; seed < 26; ++seed) {
     const FightState state = random_state(seed);
-    const Plan truth = a.plan(state, FighterId(0), 0), plan = b.plan(state, FighterId(0), 0);
+    const Plan truth = a.plan(state, FighterId(0)), plan = b.plan(state, FighterId(0));
     EXPECT_EQ(truth.record.lines[0].score, plan.record.lines[0].score);
     EXPECT_EQ(truth.launch, plan.launch);
     EXPECT_LT(plan.record.nodes, truth.record.nodes);
@@ -128,7 +128,7 @@ TEST_F(PlanTest, AlphaBetaAndMinimaxPlanTheSame) {
 TEST_F(PlanTest, LaunchFollowsFromTheStateMachine) {
   Planner planner(library(), contenders(2, quick()), {}, 3);
   const FightState state = random_state(4);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   const Launch& last = state.fighters[0].launch;
   ASSERT_NE(library().machine().edge(last.action, plan.launch.action), nullptr);
   EXPECT_EQ(plan.launch.start, state.now);
@@ -150,7 +150,7 @@ TEST_F(PlanTest, LinesComeBestFirstAndNameActors) {
   FightState state = random_state(4);
   state.fighters[1].launch.end = state.now;
   state.fighters[1].launch.start = state.now - 36;
-  const Plan plan = planner.plan(state, FighterId(1), 0);
+  const Plan plan = planner.plan(state, FighterId(1));
   ASSERT_GT(plan.record.lines.size(), 1u);
   ASSERT_LE(plan.record.lines.size(), 6u);
   for (std::size_t i = 0; i < plan.record.lines.size(); ++i) {
@@ -173,7 +173,7 @@ TEST_F(PlanTest, TermsOfALineAddUpToItsScore) {
   int lines = 0, with_terms = 0;
   bool location = false, hit = false, control = false;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    const DecisionRecord record = planner.plan(random_state(seed), FighterId(0), 0).record;
+    const DecisionRecord record = planner.plan(random_state(seed), FighterId(0)).record;
     for (const Line& line : record.lines) {
       lines += line.at_most ? 0 : 1;
       if (!line.terms) continue;
@@ -198,7 +198,7 @@ TEST_F(PlanTest, FirstMovesThatWereStruckOffAreNamedWithTheirRules) {
   // An attack of the opponent is under way, old enough to be seen: not to defend is struck off.
   FightState state = facing(0.7f);
   state.fighters[1].launch = launch("cross", -31, {0, 0.35f, kPi});
-  const DecisionRecord record = planner.plan(state, FighterId(0), 0).record;
+  const DecisionRecord record = planner.plan(state, FighterId(0)).record;
   ASSERT_FALSE(record.struck_off.empty());
   for (const StruckOff& one : record.struck_off) {
     EXPECT_FALSE(one.rules.empty()) << one.action;
@@ -208,7 +208,7 @@ TEST_F(PlanTest, FirstMovesThatWereStruckOffAreNamedWithTheirRules) {
   PlanSettings nothing;
   nothing.prune.unanswered_hit = nothing.prune.back_turned = nothing.prune.penetration = false;
   Planner kept(library(), contenders(2, style), nothing, 3);
-  EXPECT_TRUE(kept.plan(state, FighterId(0), 0).record.struck_off.empty());
+  EXPECT_TRUE(kept.plan(state, FighterId(0)).record.struck_off.empty());
 }
 
 TEST_F(PlanTest, NodeLimitShortensTheHorizonButAlwaysAnswers) {
@@ -220,7 +220,7 @@ TEST_F(PlanTest, NodeLimitShortensTheHorizonButAlwaysAnswers) {
     PlanSettings settings;
     settings.node_limit = limit;
     Planner planner(library(), contenders(2, style), settings, 3);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
+    const Plan plan = planner.plan(state, FighterId(0));
     EXPECT_TRUE(plan.launch.action.valid());
     EXPECT_LE(plan.record.nodes, std::max<std::uint64_t>(limit, 10));
     EXPECT_GE(plan.record.horizon, last);
@@ -238,7 +238,7 @@ TEST_F(PlanTest, AMoveWeighedByItsFirstStepIsNoneThatTheRulesStrikeOff) {
     Planner planner(library(), contenders(2, quick()), tight, seed);
     FightState state = random_state(seed);
     state.fighters[1].launch = launch("front_kick", -70, state.fighters[1].launch.placement);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
+    const Plan plan = planner.plan(state, FighterId(0));
     ASSERT_EQ(plan.record.nodes, plan.record.lines.size());
     EXPECT_LT(plan.record.pruned_candidates, library().actions().size());
     for (const StruckOff& one : plan.record.struck_off) {
@@ -254,7 +254,7 @@ TEST_F(PlanTest, FallenFighterGetsUp) {
   FightState state = facing(1.5f, 20);
   state.fighters[0].balance = 2;
   state.fighters[0].launch = launch("knockdown_back", -150, state.fighters[0].launch.placement);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   EXPECT_EQ(library().action(plan.launch.action).kind, Kind::get_up);
   EXPECT_TRUE(plan.launch.forced);
 }
@@ -269,7 +269,7 @@ TEST_F(PlanTest, WhoLiesIsGivenRoomToRise) {
     state.fighters[1].balance = 2;
     state.fighters[1].launch = launch("knockdown_back", -30, state.fighters[1].launch.placement);
     for (int decisions = 0; decisions < 3; ++decisions) {
-      const Plan plan = planner.plan(state, FighterId(0), 0);
+      const Plan plan = planner.plan(state, FighterId(0));
       state.fighters[0].launch = plan.launch;
       state.now = plan.launch.end;
     }
@@ -286,7 +286,7 @@ TEST_F(PlanTest, ForeseenEventsAreThoseOfTheChosenLine) {
     FightState state = facing(distance);
     // The opponent has just begun a long kick at nobody: somewhere it can be hit.
     state.fighters[1].launch = launch("front_kick", -70, state.fighters[1].launch.placement);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
+    const Plan plan = planner.plan(state, FighterId(0));
     for (const Event& event : plan.foreseen) {
       EXPECT_GT(event.tick, state.now);
       EXPECT_LE(event.tick, state.now + plan.record.horizon);
@@ -373,9 +373,9 @@ TEST_F(PlanTest, RarityMakesARepeatedActionCostly) {
   style.rarity_weight = 20;
   const FightState state = facing(0.95f);
   Planner planner(library(), contenders(2, style), {}, 3);
-  const ActionId first = planner.plan(state, FighterId(0), 0).launch.action;
+  const ActionId first = planner.plan(state, FighterId(0)).launch.action;
   for (int i = 0; i < 20; ++i) planner.note_launch(FighterId(0), first);
-  EXPECT_NE(planner.plan(state, FighterId(0), 0).launch.action, first);
+  EXPECT_NE(planner.plan(state, FighterId(0)).launch.action, first);
 }
 
 TEST_F(PlanTest, ThirdFightersBlowIsAThreat) {
@@ -389,10 +389,32 @@ TEST_F(PlanTest, ThirdFightersBlowIsAThreat) {
   Style style = quick();
   style.temperature = 0;
   Planner planner(library(), contenders(3, style), {}, 3);
-  const Plan threatened = planner.plan(state, FighterId(0), 0);
+  const Plan threatened = planner.plan(state, FighterId(0));
   state.fighters[2].launch.placement = {0.93f, 2.5f, -kPi / 2};
-  const Plan safe = planner.plan(state, FighterId(0), 0);
+  const Plan safe = planner.plan(state, FighterId(0));
   EXPECT_LT(threatened.record.lines[0].score, safe.record.lines[0].score);
+}
+
+// Blows between others do not entertain who waits.
+TEST_F(PlanTest, BoredomCountsFromTheFightersOwnLastContact) {
+  FightState state = facing(1.2f);
+  FighterState third = state.fighters[1];
+  third.launch.placement = {3, -2, 0};
+  state.fighters.push_back(third);
+  state.fighters[0].opponent = FighterId(1);
+  for (FighterState& fighter : state.fighters) fighter.last_contact = state.now;
+  Style style = quick();
+  style.temperature = 0;
+  const auto score = [&] {
+    Planner planner(library(), contenders(3, style), {}, 3);
+    return planner.plan(state, FighterId(0)).record.lines[0].score;
+  };
+  const double met = score();
+  const Tick long_ago = state.now - ticks(style.boredom_after_s + 10);
+  state.fighters[2].last_contact = long_ago;
+  EXPECT_EQ(score(), met);
+  state.fighters[0].last_contact = long_ago;
+  EXPECT_GT(score(), met + 1);  // attacks are worth more to it
 }
 
 TEST_F(PlanTest, WhoLiesInTheWayIsNotWalkedInto) {
@@ -405,7 +427,7 @@ TEST_F(PlanTest, WhoLiesInTheWayIsNotWalkedInto) {
   Style style = quick();
   style.candidates = 40;
   Planner planner(library(), contenders(3, style), {}, 3);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   const auto& struck = plan.record.struck_off;
   const auto step = std::find_if(struck.begin(), struck.end(),
                                  [](const StruckOff& one) { return one.action == "step_fore"; });
@@ -426,15 +448,14 @@ TEST_F(PlanTest, ToStandWhereAnotherLiesCosts) {
   PlanSettings settings;
   settings.prune.penetration = false;
   Planner planner(library(), contenders(3, style), settings, 3);
-  const Plan beside = planner.plan(state, FighterId(0), 0);
+  const Plan beside = planner.plan(state, FighterId(0));
   state.fighters[2].launch.placement = {0.8f, -0.48f, kPi / 2};  // across where fighter 0 stands
-  const Plan astride = planner.plan(state, FighterId(0), 0);
+  const Plan astride = planner.plan(state, FighterId(0));
   EXPECT_LT(astride.record.lines[0].score, beside.record.lines[0].score - 500);
   state.fighters[2].launch =
       launch("idle", 0, {0.8f, -0.48f, kPi / 2});  // who stands is no such thing
   state.fighters[2].balance = 0;
-  EXPECT_EQ(planner.plan(state, FighterId(0), 0).record.lines[0].score,
-            beside.record.lines[0].score);
+  EXPECT_EQ(planner.plan(state, FighterId(0)).record.lines[0].score, beside.record.lines[0].score);
 }
 
 TEST_F(PlanTest, ChiefOpponentIsTheNearestWhereNoneIsNamed) {
@@ -444,7 +465,7 @@ TEST_F(PlanTest, ChiefOpponentIsTheNearestWhereNoneIsNamed) {
   state.fighters.push_back(third);
   for (FighterState& fighter : state.fighters) fighter.opponent = {};
   Planner planner(library(), contenders(3, quick()), {}, 3);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   for (const Line& line : plan.record.lines) {
     for (const int actor : line.actors) EXPECT_NE(actor, 2);
   }
@@ -455,7 +476,7 @@ TEST_F(PlanTest, AloneAFighterRests) {
   state.fighters.pop_back();
   state.fighters[0].opponent = {};
   Planner planner(library(), contenders(1, quick()), {}, 3);
-  const Plan plan = planner.plan(state, FighterId(0), 0);
+  const Plan plan = planner.plan(state, FighterId(0));
   EXPECT_TRUE(plan.launch.action.valid());
   EXPECT_GT(plan.launch.end, state.now);
 }
@@ -468,8 +489,7 @@ TEST_F(PlanTest, WithoutAClockLimitsChangeNothingButTheMark) {
       b(library(), contenders(2, style), settings, 3);
   const FightState state = facing(0.95f, 12);
   const std::atomic<bool> never{false};
-  const Plan whole = a.plan(state, FighterId(0), 0),
-             live = b.plan(state, FighterId(0), 0, {0, &never});
+  const Plan whole = a.plan(state, FighterId(0)), live = b.plan(state, FighterId(0), {0, &never});
   EXPECT_TRUE(whole.reproducible);
   EXPECT_FALSE(live.reproducible);
   EXPECT_EQ(live.record.horizon, whole.record.horizon);  // deepened in steps to the same end
@@ -480,7 +500,7 @@ TEST_F(PlanTest, WithoutAClockLimitsChangeNothingButTheMark) {
 TEST_F(PlanTest, StoppedAtOnceAPlanStillHasALaunch) {
   Planner planner(library(), contenders(2, quick()), {}, 3);
   const std::atomic<bool> now{true};
-  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0, &now});
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), {0, &now});
   EXPECT_TRUE(plan.launch.action.valid());
   EXPECT_FALSE(plan.reproducible);
   EXPECT_LT(plan.record.horizon, ticks(quick().horizon_s));
@@ -497,7 +517,7 @@ TEST_F(PlanTest, StopEndsASearchThatIsUnderWay) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     stop = true;
   });
-  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0, &stop});
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), {0, &stop});
   other.join();
   EXPECT_TRUE(plan.launch.action.valid());
   EXPECT_LT(plan.record.horizon, ticks(4));
@@ -509,7 +529,7 @@ TEST_F(PlanTest, TimeLimitLeavesTheHorizonsThatWereFinished) {
   PlanSettings settings;
   settings.node_limit = 0;
   Planner planner(library(), contenders(2, style), settings, 3);
-  const Plan plan = planner.plan(facing(0.95f), FighterId(0), 0, {0.02, nullptr});
+  const Plan plan = planner.plan(facing(0.95f), FighterId(0), {0.02, nullptr});
   EXPECT_TRUE(plan.launch.action.valid());
   EXPECT_LT(plan.record.horizon, ticks(4));
   EXPECT_FALSE(plan.record.lines.empty());

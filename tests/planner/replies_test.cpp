@@ -267,7 +267,7 @@ TEST_F(RepliesTest, ThePlannerAsksThoseThatFightItAndStand) {
     third.launch = launch("idle", 4 - 36, kBehind);
     third.opponent = of_third;
     state.fighters.push_back(third);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
+    const Plan plan = planner.plan(state, FighterId(0));
     return plan.record.lines[static_cast<std::size_t>(plan.record.chosen)].score;
   };
   const std::int32_t unasked = score(FighterId(0), -1, false);

@@ -74,8 +74,8 @@ TEST_F(TreeTest, AgreesWithThePlanner) {
   Planner planner(library(), contenders(2, style), {}, 1);
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const FightState state = random_state(seed);
-    const Plan plan = planner.plan(state, FighterId(0), 0);
-    DecisionTree tree = planner.tree(state, FighterId(0), 0, plan.record.horizon, kPlenty);
+    const Plan plan = planner.plan(state, FighterId(0));
+    DecisionTree tree = planner.tree(state, FighterId(0), plan.record.horizon, kPlenty);
     mark_chosen(tree, plan, library());
     ASSERT_TRUE(tree.complete());
     EXPECT_EQ(tree.nodes[0].value, plan.record.lines[0].score) << seed;
