@@ -30,9 +30,12 @@ function capsulesOf(extras, joints) {
     .filter((c) => c.joint && c.a && c.b && c.radius > 0);
 }
 
-// Colours that tell the fighters apart in the page: their gloves', light enough to read on dark. Of two
-// of one hue, as of a team, the darker gloves are darker here; more than two, or grey ones, are given the
-// palette.
+const LIGHTEST = 0.8;  // shades of one hue
+const DARKEST = 0.54;
+
+// Colours that tell the fighters apart in the page: their gloves', light enough to read on dark. Those of
+// one hue, as of a team, get shades of it, the darkest gloves the darkest; where all are of one hue, or
+// some are grey, the palette tells more.
 export function coloursOf(gltf, count, palette) {
   const gloves = [];
   for (let i = 0; i < count; ++i) {
@@ -43,9 +46,9 @@ export function coloursOf(gltf, count, palette) {
   }
   const colours = gloves.map((own) => {
     const alike = gloves.filter(({ h }) => Math.min(Math.abs(h - own.h), 1 - Math.abs(h - own.h)) < 0.06);
-    const other = alike.find((glove) => glove !== own);
-    if (own.s < 0.25 || alike.length > 2 || other?.l === own.l) return null;
-    const light = !other ? 0.66 : own.l < other.l ? 0.58 : 0.76;
+    if (own.s < 0.25 || (alike.length === count && count > 1)) return null;
+    const rank = alike.sort((a, b) => b.l - a.l).indexOf(own);
+    const light = alike.length === 1 ? 0.66 : LIGHTEST - (rank * (LIGHTEST - DARKEST)) / (alike.length - 1);
     return `#${new Color().setHSL(own.h, 1, light, SRGBColorSpace).getHexString()}`;
   });
   return colours.includes(null) ? palette : colours;

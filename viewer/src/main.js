@@ -105,6 +105,7 @@ class Page {
   }
 
   makeBoard() {
+    $('board').classList.toggle('crowd', this.cast.fighters.length > 4);
     $('board').innerHTML = this.cast.fighters.map((fighter, i) =>
       `<div class="fighter${i === 1 && this.cast.fighters.length === 2 ? ' right' : ''}" style="--c:${fighter.colour}"><div class="who"><b>${escapeHtml(fighter.name)}</b><span class="action"></span></div>
        <div class="health"><i class="late"></i><i class="now"></i></div><div class="score"></div></div>`).join('');
@@ -126,7 +127,7 @@ class Page {
       parts.root.classList.toggle('low', row.health < 0.3 * row.full);
       parts.action.textContent = row.out ? 'knocked out' : row.action ? plain(row.action.name) : '';
       parts.action.classList.toggle('forced', Boolean(row.action?.forced || row.out));
-      parts.score.innerHTML = `<span><b>${row.health.toFixed(0)}</b> health</span><span><b>${row.landed}</b>/${row.thrown} landed</span>` +
+      parts.score.innerHTML = `<span><b>${row.health.toFixed(0)}</b><em> health</em></span><span><b>${row.landed}</b>/${row.thrown} landed</span>` +
         `<span><b>${row.blocked}</b> blocked</span>${row.downs ? `<span class="down"><b>${row.downs}</b> down</span>` : ''}`;
     });
   }

@@ -9,6 +9,14 @@ function rulerStep(seconds, pixels) {
   return [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300].find((s) => s >= wanted) ?? 600;
 }
 
+// As much of a text as has room, or nothing where that would tell nothing.
+function fitted(g, text, room) {
+  if (g.measureText(text).width <= room) return text;
+  let length = text.length - 1;
+  while (length > 0 && g.measureText(`${text.slice(0, length)}…`).width > room) --length;
+  return length < 5 ? '' : `${text.slice(0, length).trimEnd()}…`;
+}
+
 export class Timeline {
   constructor(root, story, fighters, player) {
     this.root = root;
@@ -17,10 +25,11 @@ export class Timeline {
     this.player = player;
     this.from = 0;
     this.to = Math.max(player.duration, 0.01);
-    this.laneHeight = fighters.length <= 2 ? 24 : 17;
+    this.tall = fighters.length <= 2;  // labels below the marks, not between them
+    this.laneHeight = this.tall ? 30 : 17;
     root.innerHTML = `
       <div class="lanes-names">${fighters.map((f) => `<div style="height:${this.laneHeight}px;--c:${f.colour}"><i></i><span>${escapeHtml(f.name)}</span></div>`).join('')}</div>
-      <div class="lanes" style="--lane:${this.laneHeight}px" role="slider" tabindex="0" aria-label="Time" aria-valuemin="0" aria-valuemax="${player.duration.toFixed(2)}">
+      <div class="lanes" style="--lane:${this.laneHeight}px;--mark:${this.tall ? 9 : 6.5}px" role="slider" tabindex="0" aria-label="Time" aria-valuemin="0" aria-valuemax="${player.duration.toFixed(2)}">
         <canvas></canvas><div class="marks"></div><div class="playhead"><b></b></div><div class="hover" hidden></div>
       </div>`;
     this.lanes = root.querySelector('.lanes');
@@ -118,6 +127,7 @@ export class Timeline {
     g.fillRect(0, top, this.width, height);
     g.font = '10px system-ui, sans-serif';
     g.textAlign = 'left';
+    const marks = this.tall ? [] : this.marksIn(lane);
     for (const span of spans) {
       const from = Math.max(span.from, this.from);
       const to = Math.min(span.to, this.to, this.player.duration);
@@ -128,15 +138,31 @@ export class Timeline {
       g.fillStyle = span.forced ? TYPES.response.colour : this.fighters[lane].colour;
       g.fillRect(x, top, width, height);
       g.globalAlpha = 1;
-      if (width < 34) continue;
-      g.save();
-      g.beginPath();
-      g.rect(x, top, width - 3, height);
-      g.clip();
+      const [begin, end] = this.gap(x + 5, x + width - 3, marks);
+      if (end - begin < 20) continue;
       g.fillStyle = 'rgba(230,236,246,.62)';
-      g.fillText(plain(span.name), x + 9, top + height - 5.5);
-      g.restore();
+      g.fillText(fitted(g, plain(span.name), end - begin), begin, top + height - 5.5);
     }
+  }
+
+  // Where the lane's marks stand, from left to right; decisions and throws are small and do not count.
+  marksIn(lane) {
+    return this.story.events
+      .filter((event) => event.who === lane && event.type !== 'decision' && event.type !== 'strike')
+      .map((event) => this.x(event.t));
+  }
+
+  // The widest stretch between two places that no mark stands in.
+  gap(from, to, marks) {
+    const aside = 8;  // px
+    const inside = marks.filter((x) => x > from - aside && x < to + aside);
+    const edges = [from - aside, ...inside, to + aside];
+    let best = [from, from];
+    for (let i = 0; i + 1 < edges.length; ++i) {
+      const [begin, end] = [edges[i] + aside, edges[i + 1] - aside];
+      if (end - begin > best[1] - best[0]) best = [begin, end];
+    }
+    return best;
   }
 
   listen() {
@@ -182,9 +208,16 @@ export class Timeline {
     this.hover.hidden = false;
     this.hover.innerHTML = told
       ? `<b>${told.t.toFixed(2)} s</b> ${escapeHtml(this.story.tell(told))}`
-      : `<b>${this.time(x).toFixed(2)} s</b>`;
+      : `<b>${this.time(x).toFixed(2)} s</b> ${escapeHtml(this.doing(event, this.time(x)))}`;
     const half = this.hover.offsetWidth / 2;
     this.hover.style.left = `${Math.min(Math.max(x, half - LABEL), this.width - half)}px`;
+  }
+
+  // What the fighter whose lane is under the pointer does then.
+  doing(event, t) {
+    const lane = Math.floor((event.clientY - this.lanes.getBoundingClientRect().top) / this.laneHeight);
+    const span = this.story.spans[lane]?.find(({ from, to }) => from <= t && t < to);
+    return span ? `${this.fighters[lane].name}: ${plain(span.name)}` : '';
   }
 
   // The playhead at the player's time; a zoomed view pages along.

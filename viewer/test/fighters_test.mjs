@@ -23,7 +23,14 @@ test('two of a team keep their hue, the darker gloves the darker one', () => {
   assert.ok(navy.l > 0.5, 'is read on dark');
 });
 
-test('three of one hue, two of one colour and grey ones are told apart by the palette', () => {
+test('a whole team of one colour keeps its hue, each in a shade of its own', () => {
+  const shown = coloursOfGloves('#c4161c', '#c4161c', '#c4161c', '#c4161c', '#1d4fb8', '#1d4fb8').map(hslOf);
+  for (const { h, l } of shown.slice(0, 4)) assert.ok((h < 0.03 || h > 0.97) && l > 0.5);
+  assert.ok(Math.abs(shown[4].h - shown[5].h) < 0.03);
+  assert.equal(new Set(shown.map(({ h, l }) => `${h.toFixed(2)} ${l.toFixed(2)}`)).size, 6);
+});
+
+test('where all are of one hue, or one is grey, the palette tells them apart', () => {
   assert.equal(coloursOfGloves('#1d4fb8', '#16357f', '#2a6ae0'), palette);
   assert.equal(coloursOfGloves('#1d4fb8', '#1d4fb8'), palette);
   assert.equal(coloursOfGloves('#808080', '#1d4fb8'), palette);

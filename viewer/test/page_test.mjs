@@ -192,6 +192,13 @@ test('the timeline can be dragged', async () => {
   assert.ok(Math.abs(share - 0.75) < 0.01, `${share}`);
 });
 
+test('the pointer over a lane tells what its fighter does then', async () => {
+  const box = await page.locator('.lanes').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 26);  // under the marks
+  const text = await page.locator('.lanes .hover').innerText();
+  assert.match(text, /^\d+\.\d\d s \S.*: \w+/);
+});
+
 test('a decision shows its lines and what was pruned', async () => {
   const mark = await page.evaluate(() => window.ringcraft.events.find((e) => e.type === 'decision' && e.lines?.length)?.t);
   assert.ok(mark !== undefined, 'no decision with lines');
