@@ -56,8 +56,10 @@ MotionLibrary connected_library(const std::string& name, std::vector<Action> act
     of_graph.threads = settings.threads;
     const std::vector<GraphSource> sources = graph_sources(actions, of_graph);
     graph = build_motion_graph(skeleton, sources, of_graph);
+    ConnectSettings of_ways;
+    of_ways.threads = settings.threads;
     std::vector<Action> connecting =
-        connecting_actions(skeleton, actions, sources, graph, machine, {});
+        connecting_actions(skeleton, actions, sources, graph, machine, of_ways);
     for (Action& action : connecting) actions.push_back(std::move(action));
   }
   for (Action& action : blends) actions.push_back(std::move(action));

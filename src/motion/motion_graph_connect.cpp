@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/tasks.h"
 #include "motion/playback.h"
 
 namespace ringcraft {
@@ -222,10 +223,13 @@ std::vector<Action> connecting_actions(const Skeleton& skeleton, const std::vect
                                        const StateMachineSettings& machine_settings,
                                        const ConnectSettings& settings) {
   const WaySearch search(sources, graph, settings);
+  std::vector<std::vector<Way>> found(actions.size());
+  run_tasks(actions.size(), settings.threads, [&](std::size_t i) {
+    if (actions[i].ends_lying == Lying::none) found[i] = search.from(ActionId(i), actions.size());
+  });
   std::vector<Way> ways;
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (actions[i].ends_lying != Lying::none) continue;
-    for (Way& way : search.from(ActionId(i), actions.size())) {
+  for (std::vector<Way>& of_one : found) {
+    for (Way& way : of_one) {
       if (!actions[way.to.at()].forced()) ways.push_back(std::move(way));
     }
   }

@@ -21,6 +21,7 @@ struct ConnectSettings {
   Tick seam = 12;          // ticks that a transition more has to save
   Tick gain = 24;          // ticks by which a way must be shorter than the present path
   std::size_t most = 192;  // ways that are made at most
+  int threads = 1;         // never changes the result
 };
 
 // Frames first..last of one clip of the graph, played on the way.

@@ -152,6 +152,15 @@ TEST(MotionGraph, AWayThatIsShorterThanThePathBecomesAnActionThatConnects) {
     EXPECT_EQ(action.kind, Kind::transition);
     EXPECT_TRUE(faults(action.clip).empty()) << action.name;
   }
+  ConnectSettings with_three;
+  with_three.threads = 3;
+  const std::vector<Action> same =
+      connecting_actions(kSkeleton, actions, sources, graph, {}, with_three);
+  ASSERT_EQ(same.size(), connecting.size());
+  for (std::size_t i = 0; i < same.size(); ++i) {
+    EXPECT_EQ(same[i].source, connecting[i].source);
+    EXPECT_EQ(same[i].length(), connecting[i].length());
+  }
   const MotionLibrary before("before", actions);
   actions.insert(actions.end(), connecting.begin(), connecting.end());
   const MotionLibrary after("after", actions);
