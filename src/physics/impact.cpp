@@ -77,15 +77,18 @@ OwnMotion carried_by_the_action(const BodyModel& body, const ImpactFrame& frame,
   return {{carried(.5f), carried(1)}, strayed_feet(body, frame, own.ragdoll)};
 }
 
-std::array<Vec3, 3> moved(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll) {
+// How far the body is from where its action would have it.
+void note_way(const BodyModel& body, const ImpactFrame& frame, const Ragdoll& ragdoll,
+              ImpactOutcome& outcome) {
   const WorldPose is = world_pose(body.skeleton, ragdoll.pose()),
                   was_to_be = world_pose(body.skeleton, frame.continued(kImpulseStepTicks));
-  std::array<Vec3, 3> out;
-  std::size_t n = 0;
-  for (const Joint joint : {Joint::head, Joint::upper_chest, Joint::hips}) {
-    out[n++] = is.position[index(joint)] - was_to_be.position[index(joint)];
+  const auto way = [&](Joint joint) {
+    return is.position[index(joint)] - was_to_be.position[index(joint)];
+  };
+  outcome.moved = {way(Joint::head), way(Joint::upper_chest), way(Joint::hips)};
+  for (const Side side : {Side::left, Side::right}) {
+    outcome.knee_moved = std::max(outcome.knee_moved, glm::length(way(leg(side).middle)));
   }
-  return out;
 }
 
 ResponseKind response_of(int steps) {
@@ -281,7 +284,7 @@ ImpactOutcome impulse_step(const BodyModel& body, const ImpactInput& input,
     }
   }
   outcome.com_velocity = ragdoll.center_of_mass_velocity();
-  outcome.moved = moved(body, frame, ragdoll);
+  note_way(body, frame, ragdoll, outcome);
 
   const float so_far = is_thigh(frame.blow().part) ? .5f : 1.0f;
   const Vec3 xi = extrapolated_of(body, ragdoll, so_far);

@@ -94,6 +94,7 @@ struct ImpactOutcome {
   // How far head, chest and hips are from where the action would have them after the impulse step,
   // world, m: the motion that a response is to continue.
   std::array<Vec3, 3> moved{};
+  float knee_moved = 0;  // m: the same of the knee that goes farther
   bool operator==(const ImpactOutcome&) const = default;
 };
 

@@ -28,6 +28,17 @@ std::array<Vec3, 4> upper(const Skeleton& skeleton, const Pose& pose) {
           world.position[index(Joint::upper_chest)], world.position[0]};
 }
 
+// What a blow to the zone moves, m: knees, or head, face, chest and hips.
+std::vector<Vec3> moved_by(TargetZone zone, const Skeleton& skeleton, const Pose& pose) {
+  if (zone != TargetZone::leg) {
+    const auto points = upper(skeleton, pose);
+    return {points.begin(), points.end()};
+  }
+  const WorldPose world = world_pose(skeleton, pose);
+  return {world.position[index(leg(Side::left).middle)],
+          world.position[index(leg(Side::right).middle)]};
+}
+
 // Head, face, chest, hips and feet, m.
 std::array<Vec3, 6> whole(const Skeleton& skeleton, const Pose& pose) {
   const auto [head, face, chest, hips] = upper(skeleton, pose);
@@ -40,8 +51,7 @@ std::array<Vec3, 6> whole(const Skeleton& skeleton, const Pose& pose) {
           world.position[index(Joint::right_foot)]};
 }
 
-template <std::size_t N>
-float apart(const std::array<Vec3, N>& a, const std::array<Vec3, N>& b) {
+float apart(std::span<const Vec3> a, std::span<const Vec3> b) {
   float most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
   return most;
@@ -96,7 +106,8 @@ Pose swayed(const Skeleton& skeleton, const Pose& pose, Vec3 offset) {
 Absorbed absorbed(const BodyModel& body, const ImpactInput& input, const ImpactOutcome& outcome,
                   const Pose& rest, std::span<const Pose> clip) {
   if (clip.empty() || glm::length(input.blow.impulse) <= 0) return {};
-  const float goes = way_of_clip(body.skeleton, rest, clip);
+  const TargetZone zone = outcome.zone;
+  const float goes = way_of_clip(body.skeleton, rest, clip, zone);
   if (goes <= 0) return {};
 
   ImpactInput calm = input;
@@ -106,8 +117,8 @@ Absorbed absorbed(const BodyModel& body, const ImpactInput& input, const ImpactO
   const auto unstruck = simulate_response(body, calm, outcome, still, kMeasured);
   float moved = 0;
   for (std::size_t t = 0; t < struck.size(); ++t) {
-    moved =
-        std::max(moved, apart(upper(body.skeleton, struck[t]), upper(body.skeleton, unstruck[t])));
+    moved = std::max(moved, apart(moved_by(zone, body.skeleton, struck[t]),
+                                  moved_by(zone, body.skeleton, unstruck[t])));
   }
   Absorbed shown;
   shown.share = std::min(1.0f, moved / goes);
@@ -139,10 +150,13 @@ void put_in_guard(const MotionLibrary& library, const Action& response, Pose& po
       glm::conjugate(hips) * guard->rotation[kHips] * guard->rotation[index(Joint::spine)]);
 }
 
-float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip) {
-  const auto at_rest = upper(skeleton, rest);
+float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip,
+                  TargetZone zone) {
+  const auto at_rest = moved_by(zone, skeleton, rest);
   float goes = 0;
-  for (const Pose& pose : clip) goes = std::max(goes, apart(upper(skeleton, pose), at_rest));
+  for (const Pose& pose : clip) {
+    goes = std::max(goes, apart(moved_by(zone, skeleton, pose), at_rest));
+  }
   return goes;
 }
 
@@ -182,8 +196,11 @@ Tick free_again(std::span<const float> left, float share) {
 
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip) {
   if (way_of_clip <= 0) return 0;
-  float moved = 0;
-  for (const Vec3& way : outcome.moved) moved = std::max(moved, glm::length(way));
+  float moved = outcome.knee_moved;
+  if (outcome.zone != TargetZone::leg) {
+    moved = 0;
+    for (const Vec3& way : outcome.moved) moved = std::max(moved, glm::length(way));
+  }
   return std::min(1.0f, moved / way_of_clip);
 }
 

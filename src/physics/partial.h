@@ -21,7 +21,8 @@ struct Sway {
 struct Absorbed {
   // 0..1, of the response's clip: how far the blow moves the simulated body against how far the
   // clip moves one. Zero impulse has none of it, 1 where the body goes as far as the clip does.
-  // Both are the largest way of head, face, chest or hips.
+  // Both are the largest way of what the blow moves: a knee where it meets a leg, else head, face,
+  // chest or hips.
   float share = 0;
   Sway sway;  // as far as the blow moves the simulated hips and the share of the clip does not
 };
@@ -40,9 +41,10 @@ Pose swayed(const Skeleton& skeleton, const Pose& pose, Vec3 offset);
 // guard.
 void put_in_guard(const MotionLibrary& library, const Action& response, Pose& pose);
 
-// How far the clip moves a body, m: the largest way of head, face, chest or hips, from `rest` on.
-// One space, one scale.
-float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip);
+// How far a clip moves what a blow to the zone moves, m: the largest way, from `rest` on, of a knee
+// for a leg, else of head, face, chest or hips. One space, one scale.
+float way_of_clip(const Skeleton& skeleton, const Pose& rest, std::span<const Pose> clip,
+                  TargetZone zone);
 
 // How far the body has still to go from each pose of the clip to its last one, m: the largest way
 // of head, face, chest, hips and feet.
@@ -66,7 +68,7 @@ Strides strides_of(const Skeleton& skeleton, const Clip& clip, float scale);
 float share_of_steps(const BodyModel& body, const ImpactOutcome& outcome, const Strides& strides);
 
 // Absorbed::share as an impulse step tells it, 100 ms on, without a second simulation; the
-// body's own way off its action counts as well.
+// body's own way off its action counts as well. `way_of_clip`: for the zone that was struck.
 float share_foreseen(const ImpactOutcome& outcome, float way_of_clip);
 
 // The pose that lies `share` of the way from `rest` to `pose`; ankles and the turns of feet go that

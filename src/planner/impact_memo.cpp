@@ -195,7 +195,9 @@ ImpactAnswer ImpactMemo::stepped(const MotionTables& victim, const BodyMoment& s
   answer.response = choose_response(victim.library(), victim.body(), answer.outcome,
                                     struck.faces(victim.library()), action.action->stance);
   if (answer.outcome.response == ResponseKind::absorb) {
-    answer.share = share_foreseen(answer.outcome, victim.at(answer.response).way);
+    const ActionTable& shown = victim.at(answer.response);
+    const bool leg = answer.outcome.zone == TargetZone::leg;
+    answer.share = share_foreseen(answer.outcome, leg ? shown.leg_way : shown.way);
   } else if (answer.outcome.response == ResponseKind::recovery_steps) {
     answer.share =
         share_of_steps(victim.body(), answer.outcome, victim.at(answer.response).strides);

@@ -360,7 +360,8 @@ void MotionTables::add_parts(ActionId action) {
   ActionTable& whole = actions_[action.at()];
   Pose rest = whole.pose.front();
   put_in_guard(library_, *whole.action, rest);
-  whole.way = way_of_clip(body_.skeleton, rest, whole.pose);
+  whole.way = way_of_clip(body_.skeleton, rest, whole.pose, TargetZone::body);
+  whole.leg_way = way_of_clip(body_.skeleton, rest, whole.pose, TargetZone::leg);
   whole.strides = strides_of(library_.skeleton(), whole.action->clip, body_.scale);
   parts_[action.at()] = actions_.size();
   for (const float share : kParts) {

@@ -152,7 +152,7 @@ struct ActionTable {
   std::size_t first_strike = 0;    // its number among all strikes of the library's actions
   float extent = 0;                // largest distance of the body from the origin on the ground, m
   Frame end;                       // root[length]
-  float way = 0;                // of a response that stays up: way_of_clip (physics/partial.h), m
+  float way = 0, leg_way = 0;   // of a response that stays up: way_of_clip (physics/partial.h), m
   Strides strides;              // of the same
   std::vector<float> way_left;  // of a response that stays up, one a tick, m
   ActionId get_up;              // of a fall: what follows it; invalid for anything else

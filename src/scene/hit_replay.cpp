@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kVersion = 2;
 constexpr int kHashBytes = 8;
 constexpr std::size_t kLongestText = 16'384;
 constexpr std::size_t kLongestLine = 1u << 20;  // bytes: a parsed line takes many times its size
@@ -45,6 +45,7 @@ void write_outcome(ByteWriter& writer, const ImpactOutcome& outcome) {
   for (const float v : {outcome.direction, outcome.head_spin, outcome.margin}) writer.number(v);
   writer.vector(outcome.com_velocity);
   for (const Vec3& moved : outcome.moved) writer.vector(moved);
+  writer.number(outcome.knee_moved);
 }
 
 ImpactOutcome read_outcome(ByteReader& reader) {
@@ -58,6 +59,7 @@ ImpactOutcome read_outcome(ByteReader& reader) {
   outcome.margin = reader.number();
   outcome.com_velocity = reader.vector();
   for (Vec3& moved : outcome.moved) moved = reader.vector();
+  outcome.knee_moved = reader.number();
   return outcome;
 }
 

@@ -118,6 +118,31 @@ TEST_F(Partial, AForeseenShareIsTheWayOfTheBodyInTheWayOfTheClip) {
   EXPECT_EQ(share_foreseen(outcome, .01f), 1);  // never more than the clip
   outcome.moved = {Vec3{0, 0, -.01f}, Vec3{0, 0, -.03f}, Vec3{0, 0, -.04f}};  // a blow to the belly
   EXPECT_NEAR(share_foreseen(outcome, .1f), .4f, 1e-5f);
+  outcome.zone = TargetZone::leg;  // a blow to a leg by its knee
+  outcome.knee_moved = .02f;
+  EXPECT_NEAR(share_foreseen(outcome, .1f), .2f, 1e-5f);
+}
+
+// A kick that bends a leg hardly moves head and chest: the leg is what its clip is measured by.
+TEST_F(Partial, AKickToALegIsMeasuredByItsKnee) {
+  std::vector<Pose> clip(60, fighting);  // the hips sink over feet that stand, the trunk leans
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    const float share = std::min(1.0f, static_cast<float>(i) / 24);
+    clip[i] = swayed(body.skeleton, fighting, Vec3{.02f, -.05f, -.02f} * share);
+    clip[i].rotation[index(Joint::spine)] =
+        from_rotation_vector({radians(20) * share, 0, 0}) * fighting.rotation[index(Joint::spine)];
+  }
+  float last = 0;
+  for (const float impulse : {15.0f, 30.0f, 45.0f}) {
+    const stance::Hit hit(body, fighting, Part::left_thigh, {impulse, 0, 0});
+    ImpactOutcome outcome;
+    outcome.zone = TargetZone::leg;
+    const float share = absorbed(body, hit.input, outcome, fighting, clip).share;
+    outcome.zone = TargetZone::body;
+    EXPECT_GT(share, 1.5f * absorbed(body, hit.input, outcome, fighting, clip).share) << impulse;
+    EXPECT_GT(share, last);
+    last = share;
+  }
 }
 
 // Recovery feet are placed by dv / w0.

@@ -33,12 +33,16 @@ TEST_F(PartsOfResponses, GoAsFarOfTheClipsWayAsTheirShare) {
     const ActionTable& whole = tables().at(id);
     Pose rest = whole.pose.front();
     put_in_guard(default_library(), *whole.action, rest);
-    EXPECT_FLOAT_EQ(whole.way, way_of_clip(skeleton, rest, whole.pose)) << whole.action->name;
+    EXPECT_FLOAT_EQ(whole.way, way_of_clip(skeleton, rest, whole.pose, TargetZone::body))
+        << whole.action->name;
+    EXPECT_FLOAT_EQ(whole.leg_way, way_of_clip(skeleton, rest, whole.pose, TargetZone::leg));
     ASSERT_GT(whole.way, 0) << whole.action->name;
+    ASSERT_GT(whole.leg_way, 0) << whole.action->name;
     for (const float share : {0.0f, .25f, .5f, .75f}) {
       const ActionTable& part = tables().at(id, share);
       // Turns are shared out, so the way is not quite straight.
-      EXPECT_NEAR(way_of_clip(skeleton, rest, part.pose), share * whole.way, 0.1f * whole.way)
+      EXPECT_NEAR(way_of_clip(skeleton, rest, part.pose, TargetZone::body), share * whole.way,
+                  0.1f * whole.way)
           << whole.action->name << " " << share;
       EXPECT_NEAR(part.end.yaw, share * whole.end.yaw, 1e-5f) << whole.action->name;
     }
