@@ -12,18 +12,26 @@ namespace ringcraft {
 namespace {
 
 // Of each limb, the parts that keep out, the end first.
-constexpr std::array<std::array<Part, 2>, 4> kParts = {{
-    {Part::left_hand, Part::left_forearm},
-    {Part::right_hand, Part::right_forearm},
-    {Part::left_foot, Part::left_shin},
-    {Part::right_foot, Part::right_shin},
-}};
+constexpr std::array kLeftArm = {Part::left_hand, Part::left_forearm};
+constexpr std::array kRightArm = {Part::right_hand, Part::right_forearm};
+constexpr std::array kLeftLeg = {Part::left_foot, Part::left_shin, Part::left_thigh};
+constexpr std::array kRightLeg = {Part::right_foot, Part::right_shin, Part::right_thigh};
+constexpr std::array<std::span<const Part>, 4> kParts = {kLeftArm, kRightArm, kLeftLeg, kRightLeg};
 constexpr float kLow = .1f;  // m: a limb's end that is lower is not pressed down
 constexpr int kRounds = 3;   // the way out of one part may lead the other into something else
 
 Vec3 shortened(Vec3 way, float most) {
   const float length = glm::length(way);
   return length > most ? way * (most / length) : way;
+}
+
+// Of a thigh the half at the knee: the other hardly goes anywhere when the leg turns.
+Capsule keeps_out(const BodyCapsules& own, Part part) {
+  Capsule capsule = own[index(part)];
+  if (part == Part::left_thigh || part == Part::right_thigh) {
+    capsule.a = (capsule.a + capsule.b) * .5f;
+  }
+  return capsule;
 }
 
 // How far, and which way, the part must move to clear the bodies. Zero where it touches nothing.
@@ -67,7 +75,7 @@ void move_end(const BodyModel& body, std::size_t mover, Vec3 way, Pose& pose) {
 
 LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
                      std::span<const BodyCapsules> others, const LimbOffsets& now,
-                     const std::function<Pose(const Pose&)>& as_shown) {
+                     const std::function<Pose(const Pose&)>& as_shown, std::uint32_t spared) {
   LimbOffsets offsets;
   const Vec3 away = pose.rotation[0] * -kForward;
   const WorldPose world = world_pose(body.skeleton, pose);
@@ -82,9 +90,10 @@ LimbOffsets kept_out(const BodyModel& body, const Pose& pose, FootContacts held,
     for (int round = 0; round < kRounds && !clear; ++round) {
       clear = true;
       for (const Part part : kParts[m]) {
+        if ((spared >> index(part) & 1u) != 0) continue;
         const Pose shown = is_leg(kArmsAndLegs[m]) ? as_shown(moved) : moved;
         const BodyCapsules own = capsules(body, world_pose(body.skeleton, shown));
-        const Vec3 way = way_out(own[index(part)], others, away);
+        const Vec3 way = way_out(keeps_out(own, part), others, away);
         if (way == Vec3{}) continue;
         clear = false;
         offset = shortened(offset + way, kMostKeptOut[m]);
@@ -106,7 +115,7 @@ float wedge(const BodyCapsules& own, const LimbOffsets& offsets, const BodyCapsu
     const float far = glm::length(offsets[m]) - kMostKeptOut[m] / 2;
     if (far <= most) continue;
     for (const Part part : kParts[m]) {
-      const Capsule& limb = own[index(part)];
+      const Capsule limb = keeps_out(own, part);
       const bool touches = std::any_of(other.begin(), other.end(), [&](const Capsule& one) {
         return segment_distance(limb.a, limb.b, one.a, one.b).distance <
                limb.radius + one.radius + kTouches;

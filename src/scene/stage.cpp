@@ -222,6 +222,20 @@ void Stage::next(const Actor& actor, Tick tick, Motion& motion) const {
   hold_off(actor.body, motion);
 }
 
+// The thighs whose knee is on its way to strike: it ends them, and they are thicker than the shins
+// that land.
+std::uint32_t Stage::knees_to_land(const Actor& actor, Tick tick) const {
+  std::uint32_t thighs = 0;
+  for (const Strike& strike : library_.action(actor.launch.action).strikes) {
+    if (strike.kind != StrikeKind::knee) continue;
+    if (actor.launch.clip_age(tick) >= strike.active_end) continue;
+    const bool left = strike.joint == leg(Side::left).middle;
+    if (actor.motion.landed[left ? 2 : 3].holds()) continue;
+    thighs |= 1u << index(left ? Part::left_thigh : Part::right_thigh);
+  }
+  return thighs;
+}
+
 void Stage::show(Tick tick) {
   for (Actor& actor : actors_) {
     next(actor, tick, actor.motion);
@@ -229,6 +243,7 @@ void Stage::show(Tick tick) {
     actor.swept.guards =
         guarding_parts(library_.action(actor.launch.action), actor.launch.clip_age(tick));
     actor.swept.after = shown_capsules(actor);
+    actor.knees = knees_to_land(actor, tick);
     actor.recorded = false;
     if (actor.track.frames.empty()) actor.swept.before = actor.swept.after;
   }
@@ -319,7 +334,8 @@ void Stage::keep_out(Actor& actor, const LimbOffsets& before) const {
   Motion& motion = actor.motion;
   motion.kept_out = kept_out(
       actor.body, motion.unhindered, motion.playback.held(), near(actor), before,
-      [&](const Pose& pose) { return in_range(actor.body, motion, pose, motion.shown_before); });
+      [&](const Pose& pose) { return in_range(actor.body, motion, pose, motion.shown_before); },
+      actor.knees);
   hold_off(actor.body, motion);
   actor.swept.after = shown_capsules(actor);
 }

@@ -107,6 +107,7 @@ class Stage {
     bool recorded = false;  // the tick shown last: what keeps limbs out is of that tick
     Vec3 aside{};           // taken_aside()
     SweptBody swept{};
+    std::uint32_t knees = 0;  // bits of the thighs that are not kept out: their knees strike
     FighterTrack track{};
   };
 
@@ -124,6 +125,7 @@ class Stage {
                        const Pose& earlier);
   // What is shown of this tick: the motion with its limbs held off.
   static void hold_off(const BodyModel& body, Motion& motion);
+  std::uint32_t knees_to_land(const Actor& actor, Tick tick) const;
   static BodyCapsules shown_capsules(const Actor& actor);
   // From the offsets of the tick `before` on, out of the others as they are by now.
   void keep_out(Actor& actor, const LimbOffsets& before) const;

@@ -132,6 +132,41 @@ TEST_F(KeepOut, AGloveComesBackNoFasterThanItMay) {
   EXPECT_NEAR(seconds(ticks), .05 / static_cast<double>(kComingFree), .01);
 }
 
+// A kick is lifted beside somebody: a bar comes down on its thigh, at the knee or at the hip.
+TEST_F(KeepOut, ALiftedThighIsClearAtTheKneeAndTheHipIsLeftAlone) {
+  const Limb limb = leg(Side::left);
+  Pose lifted = pose;
+  const WorldPose stands = world_pose(body.skeleton, pose);
+  const Vec3 hip = stands.position[index(limb.root)];
+  move_limb_end(body.skeleton, limb, hip + Vec3{0, -.3f, .25f}, 1.0f, lifted);
+  const Capsule thigh = capsules(body, world_pose(body.skeleton, lifted))[index(Part::left_thigh)];
+  for (const float along : {.2f, .75f}) {
+    BodyCapsules other;
+    other.fill({{0, 50, 0}, {0, 51, 0}, .05f});
+    const Vec3 at = glm::mix(thigh.a, thigh.b, along);
+    LimbOffsets offsets{};
+    float deep = 0;
+    for (int tick = 0; tick < 12; ++tick) {  // 1.2 m/s, 5 cm into the thigh
+      const Vec3 bar = at + Vec3{0, thigh.radius + .1f - .01f * static_cast<float>(tick + 1), 0};
+      other[0] = {bar - Vec3{.15f, 0, 0}, bar + Vec3{.15f, 0, 0}, .03f};
+      offsets = kept_out(body, lifted, {false, true}, {{other}}, offsets);
+      const BodyCapsules own =
+          capsules(body, world_pose(body.skeleton, with_offsets(body, lifted, offsets)));
+      deep = deepest_penetration(own, other).depth;
+    }
+    if (along > .5f) {
+      EXPECT_LT(deep, .01f);
+      EXPECT_NE(offsets[2], Vec3{});
+      // Unless its knee is to strike.
+      const std::uint32_t knee = 1u << index(Part::left_thigh);
+      EXPECT_EQ(kept_out(body, lifted, {false, true}, {{other}}, {}, std::identity{}, knee),
+                LimbOffsets{});
+    } else {
+      EXPECT_EQ(offsets, LimbOffsets{});
+    }
+  }
+}
+
 // Bars that come upon a lifted leg from all around. Where inverse kinematics would fold the leg
 // beyond its ranges it is shown elsewhere, and there it has to be clear.
 TEST_F(KeepOut, ALegIsClearWhereItIsShown) {
