@@ -346,11 +346,17 @@ Result<HitAnswer> simulate_strike(const MotionLibrary& library, const HitQuery& 
   const std::string from = query.distance
                                ? fmt::format("from {} m", *query.distance)
                                : fmt::format("from any distance up to {} m", kFarthestPlace);
+  std::string remedy = "it meets nothing of that pose; choose another one";
+  if (!all.empty()) remedy = "it meets " + all;
+  // From where the clips alone would meet, a limb in the way has held the blow off.
+  if (!candidates.empty()) {
+    remedy = "on its way it is held off; the clip alone meets " + all + ": choose another moment";
+  }
   return usage_error(
       "", "--strike",
       fmt::format("{} does not land on the {} of {} at {:.2f} s {}", query.strike,
                   query.distance ? "body" : name_of(query.part), query.action, query.at_s, from),
-      all.empty() ? "it meets nothing of that pose; choose another one" : "it meets " + all);
+      remedy);
 }
 
 }  // namespace

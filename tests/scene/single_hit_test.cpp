@@ -436,7 +436,8 @@ TEST_P(PlacedStrikeTest, LandsInTheZoneAndIsAnsweredAsItsImpulseAlone) {
 INSTANTIATE_TEST_SUITE_P(Strikes, PlacedStrikeTest,
                          ::testing::Values(Placed{"cross", Part::head},
                                            Placed{"roundhouse_rear_low", Part::left_thigh},
-                                           Placed{"front_kick_rear", Part::abdomen}),
+                                           Placed{"front_kick_rear", Part::abdomen},
+                                           Placed{"knee_lead", Part::pelvis}),
                          [](const auto& test) { return std::string(test.param.strike); });
 
 TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
@@ -448,6 +449,17 @@ TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
   EXPECT_EQ(answer.error().kind, ErrorKind::usage);
   EXPECT_THAT(answer.error().what, HasSubstr("cross does not land on the leftShin"));
   EXPECT_THAT(answer.error().remedy, HasSubstr("head 0."));
+}
+
+TEST(PlacedStrike, ThatIsHeldOffOnItsWaySaysSo) {
+  HitQuery hit = query();
+  hit.strike = "knee_rear";
+  hit.part = Part::pelvis;
+  const auto answer = simulate_hit(default_library(), hit);
+  ASSERT_FALSE(answer);
+  EXPECT_THAT(answer.error().what, HasSubstr("knee_rear does not land on the pelvis"));
+  EXPECT_THAT(answer.error().remedy, HasSubstr("held off"));
+  EXPECT_THAT(answer.error().remedy, HasSubstr("pelvis 0."));
 }
 
 TEST(PlacedStrike, FromAGivenDistanceMeetsOrSaysFromWhereItWould) {
