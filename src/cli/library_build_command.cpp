@@ -13,6 +13,7 @@
 #include "capture/library_builder.h"
 #include "capture/library_file.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "io/report.h"
 #include "scene/blend_judge.h"
 
@@ -110,12 +111,7 @@ int run_library_build(const LibraryBuildOptions& build, const CommonOptions& opt
     for (const std::string& dropped : library->dropped()) tell("dropped: {}\n", dropped);
     tell("built in {:.1f} s\n", took.count());
   }
-  if (summary["attacks"] == 0 && summary["combinations"] == 0) {
-    spdlog::warn(
-        "{}: no attack in it: nobody who fights with it can strike; add captures of blows that "
-        "begin and end near one guard, or name attacks in a manifest (docs/captures.md)",
-        file.string());
-  }
+  warn_without_attacks(*library, file);
   if (options.json) {
     fmt::print("{}\n", json_text(summary, 1));
     return 0;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "base/schema.h"
 #include "capture/library_builder.h"
@@ -71,6 +72,14 @@ Result<MotionLibrary> library_for_blows(const std::filesystem::path& library) {
                      "give it actions of kind 'response'; `ringcraft library check` says which");
 }
 
+void warn_without_attacks(const MotionLibrary& library, const std::filesystem::path& file) {
+  if (library.count(Kind::attack) + library.count(Kind::combination) > 0) return;
+  spdlog::warn(
+      "{}: no attack in it: nobody who fights with it can strike; add captures of blows that "
+      "begin and end near one guard, or name attacks in a manifest (docs/captures.md)",
+      file.string());
+}
+
 std::string meant_action(const MotionLibrary& library, const std::string& name) {
   std::vector<std::string> known;
   known.reserve(library.actions().size());
@@ -86,6 +95,7 @@ Result<MotionLibrary> library_of(const SceneFile& scene) {
 Result<MotionLibrary> library_of(const SceneFile& scene, const std::filesystem::path& library) {
   auto loaded = library_for_blows(library);
   if (!loaded) return tl::unexpected(loaded.error());
+  warn_without_attacks(*loaded, library);
   if (auto done = check_feints(scene, *loaded); !done) return tl::unexpected(done.error());
   return library_for(scene, std::move(*loaded));
 }

@@ -24,6 +24,9 @@ std::vector<std::filesystem::path> files_of(const SceneFile& scene);
 // A library in which who is struck finds an answer.
 Result<MotionLibrary> library_for_blows(const std::filesystem::path& library);
 
+// Says so where nobody could strike with a library, which was read from or written to `file`.
+void warn_without_attacks(const MotionLibrary& library, const std::filesystem::path& file);
+
 // "did you mean 'cross'? " where the library has an action of nearly that name, else "".
 std::string meant_action(const MotionLibrary& library, const std::string& name);
 
