@@ -451,6 +451,16 @@ TEST(PlacedStrike, ThatCannotLandSaysWhatItMeets) {
   EXPECT_THAT(answer.error().remedy, HasSubstr("head 0."));
 }
 
+// A thigh is thicker than the shin that lands: kept out like any other, it would hold off its knee.
+TEST(PlacedStrike, OfAKneeIsNotHeldOffByItsThigh) {
+  HitQuery hit = query("idle_guard_bounce", .4);
+  hit.strike = "knee_rear";
+  hit.part = Part::abdomen;
+  const auto answer = simulate_hit(default_library(), hit);
+  ASSERT_TRUE(answer) << to_string(answer.error());
+  EXPECT_GT(answer->input.blow.speed, 5);
+}
+
 TEST(PlacedStrike, ThatIsHeldOffOnItsWaySaysSo) {
   HitQuery hit = query();
   hit.strike = "knee_rear";
