@@ -46,8 +46,7 @@ BodyMoment moment_of(const InFlight& flight, Tick tick) {
 void Duel::find_windows(const Node& node, Tick end) {
   windows_.clear();
   const auto add = [&](int attacker, const InFlight& flight, int victim) {
-    const Duelist& target = node.side[static_cast<std::size_t>(victim)];
-    if (target.balance == 2 && !setup_->settings.hits_on_downed) return;
+    const InFlight& target = flight_of(node, victim);
     for (std::size_t i = 0; i < flight.table->strikes.size(); ++i) {
       const StrikeTable& strike = flight.table->strikes[i];
       if (flight.launch.has_spent(i)) continue;
@@ -58,16 +57,24 @@ void Duel::find_windows(const Node& node, Tick end) {
       const Tick last =
           std::min(flight.launch.end, flight.launch.start + strike.strike.active_end - 1);
       const Tick to = std::min(end, last);
-      if (from > to || !may_reach(flight, strike, target.flight)) continue;
+      if (from > to || !may_reach(flight, strike, target)) continue;
       windows_.push_back({attacker, victim, i, &flight, from, to});
     }
   };
-  add(0, node.side[0].flight, 1);
-  add(1, node.side[1].flight, 0);
+  const auto spared = [&](std::size_t side) {
+    return node.side[side].balance == 2 && !setup_->settings.hits_on_downed;
+  };
+  if (!spared(1)) add(0, node.side[0].flight, 1);
+  if (!spared(0)) add(1, node.side[1].flight, 0);
   for (std::size_t k = 0; k < setup_->others.size(); ++k) {
-    for (int victim = 0; victim < 2; ++victim) {
-      if (!setup_->others[k].strikes[static_cast<std::size_t>(victim)]) continue;
-      add(2 + static_cast<int>(k), bystander(node, k), victim);
+    const int other = 2 + static_cast<int>(k);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const int one = static_cast<int>(i);
+      if (!setup_->others[k].strikes[i]) {
+        add(one, node.side[i].flight, other);  // a team mate in the way stops a blow
+      } else if (!spared(i)) {
+        add(other, bystander(node, k), one);
+      }
     }
   }
 }
@@ -137,6 +144,10 @@ bool Duel::unanswered(const Node& node, const DuelEvent& event, const InFlight& 
 }
 
 void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& fault) {
+  if (met.window.victim >= 2) {
+    node.side[static_cast<std::size_t>(met.window.attacker)].flight.launch.spend(met.window.strike);
+    return;
+  }
   Duelist& victim = node.side[static_cast<std::size_t>(met.window.victim)];
   if (victim.pending.valid()) return;  // struck already at this tick
   DuelEvent event = event_of(node, met);
@@ -184,6 +195,17 @@ void Duel::land(Node& node, const Met& met, const Move& move, std::int32_t& faul
   }
 }
 
+// One strike lands once, on whom it meets first.
+void Duel::note_met(const Met& met) {
+  const auto same = std::find_if(
+      met_.begin(), met_.end(), [&](const Met& one) { return one.window.same_strike(met.window); });
+  if (same == met_.end()) {
+    met_.push_back(met);
+  } else if (met.contact.share < same->contact.share) {
+    *same = met;
+  }
+}
+
 // Walks the windows tick by tick; returns the tick of the first hit that cuts an action, else
 // `end`.
 Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
@@ -197,15 +219,15 @@ Tick Duel::meet(Node& node, Tick end, const Move& move, std::int32_t& fault) {
   }
   for (Tick tick = first; tick <= last; ++tick) {
     met_.clear();
-    for (Window& window : windows_) {
+    for (const Window& window : windows_) {
       if (tick < window.from || tick > window.to) continue;
-      const Duelist& victim = node.side[static_cast<std::size_t>(window.victim)];
       const auto contact = contact_at(*window.flight, window.flight->table->strikes[window.strike],
-                                      victim.flight, tick);
-      if (!contact) continue;
-      met_.push_back({window, *contact, tick});
-      for (Window& same : windows_) {  // one strike lands once, on one of them
-        if (same.attacker == window.attacker && same.strike == window.strike) same.to = tick - 1;
+                                      flight_of(node, window.victim), tick);
+      if (contact) note_met({window, *contact, tick});
+    }
+    for (const Met& one : met_) {
+      for (Window& window : windows_) {
+        if (window.same_strike(one.window)) window.to = tick - 1;
       }
     }
     for (const Met& one : met_) land(node, one, move, fault);
@@ -298,7 +320,8 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
     }
     for (std::size_t k = 0; k < setup_->others.size(); ++k) {
       if (setup_->others[k].lies() || mover == 2 + static_cast<int>(k)) continue;
-      deepest = std::max(deepest, penetration_at(self, bystander(node, k), tick, least));
+      const bool foes = may_strike_each_other(mover, k);
+      deepest = std::max(deepest, penetration_at(self, bystander(node, k), tick, least, foes));
     }
     if (deepest > 0) return fault_of(deepest);
   }

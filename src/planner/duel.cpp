@@ -121,6 +121,12 @@ std::uint64_t Duel::hash(const Node& node) const {
   return mixer.digest();
 }
 
+bool Duel::may_strike_each_other(int who, std::size_t other) const {
+  const Bystander& their = setup_->others[other];
+  if (who < 2) return their.strikes[static_cast<std::size_t>(who)];
+  return their.team < 0 || their.team != setup_->others[static_cast<std::size_t>(who - 2)].team;
+}
+
 // Whether one of its strikes may still land or be judged; one that has landed counts as well.
 bool Duel::may_strike(const InFlight& flight, Tick after) const {
   const std::vector<StrikeTable>& strikes = flight.table->strikes;

@@ -69,6 +69,7 @@ struct Bystander {
   FighterId id;
   int body = 0;                             // index into the memo's tables
   std::array<bool, 2> strikes{true, true};  // either side: not where it is of its team
+  int team = -1;                            // Contender::team
 
   bool lies() const { return flight.table->action->ends_lying != Lying::none; }  // or falls
 };
@@ -203,13 +204,14 @@ class Duel {
   int next_side(const Node& node) const;
 
  private:
-  // Ticks over which one strike may meet one victim before the next decision.
+  // Ticks over which one strike may meet one body before the next decision.
   struct Window {
     int attacker = 0;  // side; 2 + index of a bystander
-    int victim = 0;
+    int victim = 0;    // the same; a bystander only where it is a team mate
     std::size_t strike = 0;
     const InFlight* flight = nullptr;
     Tick from = 0, to = 0;  // both included
+    bool same_strike(const Window& o) const { return attacker == o.attacker && strike == o.strike; }
   };
   struct Met {
     Window window;
@@ -228,6 +230,12 @@ class Duel {
     const bool replied = node.replier == static_cast<std::int32_t>(other);
     return replied ? node.reply.flight : setup_->others[other].flight;
   }
+  const InFlight& flight_of(const Node& node, int who) const {
+    return who < 2 ? node.side[static_cast<std::size_t>(who)].flight
+                   : bystander(node, static_cast<std::size_t>(who - 2));
+  }
+  // `who`: a side, or 2 + an index of a bystander.
+  bool may_strike_each_other(int who, std::size_t other) const;
   Tick next_reply(const Node& node) const;  // when somebody is to be asked; kNever: nobody
   bool asks(const Node& node) const;        // whether somebody is, now
   void find_replies(const Node& node, std::vector<Move>& moves);
@@ -243,6 +251,7 @@ class Duel {
   // From node.now to the next decision, hit or horizon; the fault is what the mover is blamed for.
   std::int32_t advance(Node& node, const Move& move);
   void find_windows(const Node& node, Tick end);
+  void note_met(const Met& met);
   Tick meet(Node& node, Tick end, const Move& move, std::int32_t& fault);
   DuelEvent event_of(const Node& node, const Met& met) const;
   void credit_landed(Node& node, const DuelEvent& event, bool knocks_down);

@@ -161,7 +161,7 @@ bool boxes_apart(const Frame& seen, const Box& box_a, const Box& box_b, float le
 
 }  // namespace
 
-float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least) {
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least, bool foes) {
   const Tick age_a = a.age(tick), age_b = b.age(tick);
   const Frame seen = relative(b.frame_at(tick), a.frame_at(tick));
   const Sphere& bound_b = b.table->bound_at(age_b);
@@ -188,8 +188,8 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
     const float out = out_x * out_x + out_y * out_y + out_z * out_z;
     own |= bit_where_below(i, out, reach * reach);
   }
-  own &= ~intended(a, tick);
-  const std::uint32_t wanted = ~intended(b, tick);
+  if (foes) own &= ~intended(a, tick);
+  const std::uint32_t wanted = foes ? ~intended(b, tick) : ~0u;
   const BodyCapsules& capsules_a = a.table->capsules_at(age_a);
   const BodyCapsules& capsules_b = b.table->capsules_at(age_b);
   float deepest = 0;

@@ -261,9 +261,11 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
 // Whether a strike can touch the target at all while active: false costs next to nothing.
 bool may_reach(const InFlight& attacker, const StrikeTable& strike, const InFlight& target);
 
-// Deepest penetration at `tick`, m, or 0 where it is not deeper than `least`. Parts of a strike
-// that is active, or was within the last kContactRest ticks, are left out: its contact is intended.
-float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least = 0);
+// Deepest penetration at `tick`, m, or 0 where it is not deeper than `least`. Between foes, parts
+// of a strike that is active, or was within the last kContactRest ticks, are left out: its contact
+// is intended.
+float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float least = 0,
+                     bool foes = true);
 inline constexpr Tick kContactRest = 24;
 
 }  // namespace ringcraft

@@ -307,6 +307,7 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter,
     one.body = body_of[i];
     one.id = FighterId(i);
     one.strikes = {enemies(one.id, fighter), enemies(one.id, opponent)};
+    one.team = contenders[i].team;
     one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
     if (const ActionTable* table = in_flight(one.id, one.flight.launch)) one.flight.table = table;
     setup.others.push_back(one);

@@ -564,7 +564,8 @@ void Bout::push_apart() {
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     for (std::size_t j = i + 1; j < state_.fighters.size(); ++j) {
       const FighterId a(i), b(j);
-      const auto excepted = [&](FighterId id) {
+      const auto excepted = [&](FighterId id, FighterId other) {
+        if (!may_strike(id, other)) return 0u;
         const Tick age = fighter(id).launch.clip_age(state_.now);
         std::uint32_t parts = 0;
         for (const Strike& strike : action_of(id).strikes) {
@@ -573,7 +574,7 @@ void Bout::push_apart() {
         return parts;
       };
       const Penetration deepest = deepest_penetration(stage_.swept(a).after, stage_.swept(b).after,
-                                                      excepted(a), excepted(b));
+                                                      excepted(a, b), excepted(b, a));
       const float press =
           std::max({deepest.depth - kTouchingDepth, stage_.wedged(a, b), stage_.wedged(b, a)});
       if (press <= 0) continue;

@@ -190,6 +190,35 @@ TEST(Fight, BodiesGiveWayWhereLimbsCannot) {
   EXPECT_LT(*std::max_element(depths.begin(), depths.end()), .03f);
 }
 
+// One boxes the air where one of its team steps back to: hands that are to strike are not meant for
+// it, and push it away as the rest does.
+TEST(Fight, ATeamMateIsNoTargetForWhatIsToStrike) {
+  const MotionLibrary& library = default_library();
+  for (const float ahead : {.7f, .8f}) {
+    SceneFile scene = scene_of("brawl3", {"duration_s=1.5"});
+    scene.fighters[1].team = scene.fighters[0].team;
+    scene.fighters[0].placement = {0, 0, 0};
+    scene.fighters[1].placement = {-.15f, ahead, 0};
+    scene.fighters[2].placement = {0, 3.5f, kPi};
+    Bout bout(library, scene, {});
+    for (auto fighter = run_to_decision(bout); fighter; fighter = run_to_decision(bout)) {
+      const std::size_t i = fighter->at();
+      const Launch& last = bout.state().fighters[i].launch;
+      const bool boxes = i == 0 && bout.state().now < kTicksPerSecond / 2;
+      const bool steps = i == 1 && bout.state().now < kTicksPerSecond * 3 / 4;
+      const char* action = boxes ? "jab_jab_cross_jab" : steps ? "step_back" : "guard_1";
+      Plan plan;
+      plan.launch =
+          following(library, last, library.find(action), bout.state().now, {0, 0, 5}, 1, 0);
+      bout.commit(*fighter, plan);
+    }
+    const FightRecord record = bout.record();
+    const std::vector<float> depths = penetration_by_tick(record.timeline, record.bodies, library);
+    // 7 ticks; 14 where they are left out.
+    EXPECT_LT(std::count_if(depths.begin(), depths.end(), [](float d) { return d > .03f; }), 11);
+  }
+}
+
 TEST(Fight, NobodyLeavesTheRing) {
   for (const char* seed : {"seed=7", "seed=21"}) {
     SceneFile scene =
