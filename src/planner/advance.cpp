@@ -330,21 +330,24 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
 
 // A launch is looked at as a whole: its edge ends where the opponent acts, and whoever moves then
 // is not to blame for where it leads. Who is in a body already may come out of it.
-std::int32_t Duel::fallen_fault(const InFlight& mover) const {
+std::int32_t Duel::launch_fault(const Node& node, int who) const {
   const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
+  const InFlight& mover = duelist(node, who).flight;
   const Tick from = mover.launch.start, every = std::max<Tick>(1, prune.penetration_every);
   const auto least = static_cast<float>(prune.penetration_m);
   std::int32_t fault = 0;
-  for (const Bystander& one : setup_->others) {
-    if (!one.lies()) continue;
-    const float most = std::max(least, penetration_at(mover, one.flight, from, least));
-    const Tick to = std::min(mover.launch.end, one.flight.launch.end);
+  for (std::size_t k = 0; k < setup_->others.size(); ++k) {
+    const bool foes = may_strike_each_other(who, k);
+    if (who == 2 + static_cast<int>(k) || (foes && !setup_->others[k].lies())) continue;
+    const InFlight& one = bystander(node, k);
+    float most = std::max(least, penetration_at(mover, one, from, least, foes));
+    const Tick to = std::min(mover.launch.end, one.launch.end);
     for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-      const float depth = penetration_at(mover, one.flight, tick, most);
+      const float depth = penetration_at(mover, one, tick, most, foes);
       if (depth <= 0) continue;
+      most = depth;
       fault = std::max(fault, fault_of(depth));
-      break;
     }
   }
   return fault;

@@ -264,7 +264,8 @@ void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
   const InFlight& self = duelist(child.node, move.side).flight;
   // Who is asked for a reply cuts the edge, and is not to blame for where its mover goes on to.
   const Tick to = move.side < 2 && asks(child.node) ? sides_end(child.node) : child.node.now;
-  std::int32_t deep = child.node.checked == self.launch.start ? fallen_fault(self) : 0;
+  std::int32_t deep =
+      child.node.checked == self.launch.start ? launch_fault(child.node, move.side) : 0;
   if (deep == 0) {
     deep = penetration_fault(child.node, move.side, child.node.checked, to);
   }

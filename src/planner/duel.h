@@ -261,8 +261,9 @@ class Duel {
   void judge_evasions(Node& node, Tick from, Tick to);
   void add_location(Node& node, Tick from, Tick to) const;
   std::int32_t penetration_fault(const Node& node, int mover, Tick from, Tick to) const;
-  // The same of a launch against those outside the duel who lie.
-  std::int32_t fallen_fault(const InFlight& mover) const;
+  // The same of its whole launch, against those outside the duel who are in nobody's edge: who
+  // lies, and team mates.
+  std::int32_t launch_fault(const Node& node, int who) const;
   bool may_strike(const InFlight& flight, Tick after) const;
   // The largest share, 0..1, to which a strike of `next`, chosen now, reaches the opponent where
   // that goes by itself.

@@ -1,6 +1,8 @@
 // Those of its own team in a fighter's way.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planner/duel_fixture.h"
 
 namespace ringcraft {
@@ -50,6 +52,46 @@ TEST_F(TeamMatesTest, SteppingIntoTheirKicksIsPruned) {
   };
   EXPECT_EQ(pruned(1.05f), 1u);
   EXPECT_EQ(pruned(2.0f), 0u);
+}
+
+// The edge ends where the opponent acts, which has nothing to do with what is in the way.
+TEST_F(TeamMatesTest, WalkingIntoOneIsPrunedWhereverTheEdgeEnds) {
+  setup_.settings.prune.penetration = true;
+  const auto pruned = [&](const char* action, Tick lag) {
+    Duel game(setup_, 240);
+    const DuelNode root = Duel::root(setup_, facing(2.4f, lag));
+    game.apply(root, choice(root, 0, action));
+    return game.counts().penetration;
+  };
+  Launch stands = launch("idle", -6, {0, -0.4f, kPi});
+  stands.end = 120;
+  for (const Tick lag : {0, 1, 30, 60}) {
+    add_third(stands, true);
+    EXPECT_EQ(pruned("step_fore", lag), 1u) << lag;
+    EXPECT_EQ(pruned("step_back", lag), 0u) << lag;
+  }
+  add_third(stands, false);
+  EXPECT_EQ(pruned("step_fore", 1), 0u);  // an enemy is in an edge of its own
+}
+
+// Where every move leads into one, that is made which leads the least deep.
+TEST_F(TeamMatesTest, AFaultIsHowDeepTheLaunchLeads) {
+  setup_.settings.prune.penetration = true;
+  add_third(launch("step_fore", 0, {0, -0.3f, kPi}), true);
+  for (const char* action : {"idle", "step_fore"}) {
+    Duel game(setup_, 240);
+    const DuelNode root = Duel::root(setup_, facing(2.4f, 60));
+    const Child<DuelNode> child = game.apply(root, choice(root, 0, action));
+    const InFlight& self = child.node.side[0].flight;
+    const InFlight& mate = setup_.others[0].flight;
+    const Tick every = setup_.settings.prune.penetration_every;
+    const Tick over = std::min(self.launch.end, mate.launch.end);
+    float deepest = 0;
+    for (Tick tick = every; tick <= over; tick += every) {
+      deepest = std::max(deepest, penetration_at(self, mate, tick));
+    }
+    EXPECT_NEAR(child.fault, 1000 * deepest, 1) << action;
+  }
 }
 
 }  // namespace
