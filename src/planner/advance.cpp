@@ -70,7 +70,7 @@ void Duel::find_windows(const Node& node, Tick end) {
     const int other = 2 + static_cast<int>(k);
     for (std::size_t i = 0; i < 2; ++i) {
       const int one = static_cast<int>(i);
-      if (!setup_->others[k].strikes[i]) {
+      if (!may_strike_each_other(one, k)) {
         add(one, node.side[i].flight, other);  // a team mate in the way stops a blow
       } else if (!spared(i)) {
         add(other, bystander(node, k), one);

@@ -122,9 +122,9 @@ std::uint64_t Duel::hash(const Node& node) const {
 }
 
 bool Duel::may_strike_each_other(int who, std::size_t other) const {
-  const Bystander& their = setup_->others[other];
-  if (who < 2) return their.strikes[static_cast<std::size_t>(who)];
-  return their.team < 0 || their.team != setup_->others[static_cast<std::size_t>(who - 2)].team;
+  const int team = who < 2 ? setup_->side[static_cast<std::size_t>(who)].team
+                           : setup_->others[static_cast<std::size_t>(who - 2)].team;
+  return !of_one_team(team, setup_->others[other].team);
 }
 
 // Whether one of its strikes may still land or be judged; one that has landed counts as well.
@@ -140,8 +140,8 @@ ValueRange Duel::range(const Node& node) const {
   if (node.side[0].pending.valid() || node.side[1].pending.valid()) return {};
   if (next_reply(node) < horizon_) return {};
   for (std::size_t k = 0; k < setup_->others.size(); ++k) {
-    const auto& [first, second] = setup_->others[k].strikes;
-    if ((first || second) && may_strike(bystander(node, k), node.now)) return {};
+    if (!may_strike_each_other(0, k) && !may_strike_each_other(1, k)) continue;
+    if (may_strike(bystander(node, k), node.now)) return {};
   }
   constexpr double kSpan = kLocationEvery * static_cast<double>(kTickSeconds);
   constexpr double kRounding = 0.001;  // points: every credit is rounded by itself

@@ -67,9 +67,8 @@ struct DuelMove {
 struct Bystander {
   InFlight flight;
   FighterId id;
-  int body = 0;                             // index into the memo's tables
-  std::array<bool, 2> strikes{true, true};  // either side: not where it is of its team
-  int team = -1;                            // Contender::team
+  int body = 0;   // index into the memo's tables
+  int team = -1;  // Contender::team
 
   bool lies() const { return flight.table->action->ends_lying != Lying::none; }  // or falls
 };
@@ -80,6 +79,7 @@ struct SideSetup {
   const MotionTables* paced = nullptr;  // of what it launches, at its pace; null: at the clips'
   float tone = 1.0f;                    // of its muscles where the motion in flight says nothing
   int body = 0;                         // index into the memo's tables
+  int team = -1;                        // Contender::team
   FighterId id;
   const ActionTable* in_flight = nullptr;  // of its launch as it is shown; null: its clip's
   const Style* style = nullptr;

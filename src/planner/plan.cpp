@@ -86,8 +86,7 @@ struct Planner::Inside {
   Vec3 root_of(const FightState& state, FighterId fighter) const;
   float apart(const FightState& state, FighterId one, FighterId other) const;  // m
   bool enemies(FighterId one, FighterId other) const {
-    const int team = contenders[one.at()].team;
-    return one != other && (team < 0 || team != contenders[other.at()].team);
+    return one != other && !of_one_team(contenders[one.at()].team, contenders[other.at()].team);
   }
   FightState as_seen(const FightState& state, FighterId fighter, FighterId opponent) const;
   double work_of(FighterId fighter, ActionId action) const;
@@ -271,6 +270,7 @@ SideSetup Planner::Inside::side_setup(const FightState& state, FighterId fighter
     side.tone = tone_at(seen_fatigue(step));
   }
   side.id = fighter;
+  side.team = contenders[fighter.at()].team;
   side.style = &contenders[fighter.at()].style;
   side.weights =
       weights_at(*side.style, quiet, apart(state, fighter, other), side.tables->body().scale);
@@ -306,7 +306,6 @@ DuelSetup Planner::Inside::setup(const FightState& state, FighterId fighter,
     Bystander one;
     one.body = body_of[i];
     one.id = FighterId(i);
-    one.strikes = {enemies(one.id, fighter), enemies(one.id, opponent)};
     one.team = contenders[i].team;
     one.flight = InFlight(*tables[static_cast<std::size_t>(one.body)], state.fighters[i].launch);
     if (const ActionTable* table = in_flight(one.id, one.flight.launch)) one.flight.table = table;
@@ -322,7 +321,8 @@ void Planner::Inside::add_repliers(DuelSetup& duel, const FightState& state) con
   for (std::size_t k = 0; k < duel.others.size(); ++k) {
     const Bystander& one = duel.others[k];
     const FighterState& fighter = state.fighters[one.id.at()];
-    if (fighter.opponent != self || !one.strikes[0] || fighter.down() || one.lies()) continue;
+    if (fighter.opponent != self || of_one_team(one.team, duel.side[0].team)) continue;
+    if (fighter.down() || one.lies()) continue;
     Replier replier;
     replier.other = static_cast<int>(k);
     replier.now.flight = one.flight;

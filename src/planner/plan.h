@@ -30,6 +30,10 @@ struct Contender {
   int team = -1;  // fighters of one team do not strike each other; below 0: of none
 };
 
+inline bool of_one_team(int team, int other) {
+  return team >= 0 && team == other;
+}
+
 struct PruneSettings {
   bool unanswered_hit = true;
   bool back_turned = true;

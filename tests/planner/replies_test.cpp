@@ -36,10 +36,9 @@ class RepliesTest : public DuelFixture {
     return game.apply(root, choice(root, 0, "idle")).node;
   }
   // How often `flight` of a bystander meets one of the two, who stand as in `state`.
-  std::size_t hits_of(const InFlight& flight, std::array<bool, 2> strikes,
-                      const FightState& state) {
-    setup_.others = {{flight, FighterId(2), 0}};
-    setup_.others[0].strikes = strikes;
+  std::size_t hits_of(const InFlight& flight, const FightState& state, int team = -1) {
+    setup_.others = {{flight, FighterId(2), 0, team}};
+    setup_.side[0].team = 0;
     Duel game(setup_, 120);
     std::vector<DuelEvent> met;
     game.record_into(&met);
@@ -240,15 +239,15 @@ TEST_F(RepliesTest, WhatThePlannerWalksIntoIsItsOwnFault) {
 TEST_F(RepliesTest, NobodyIsStruckByItsOwnTeam) {
   prune_nothing();
   const InFlight kick(tables(), launch("front_kick", -10, kBehind));
-  EXPECT_EQ(hits_of(kick, {true, true}, facing(1, 60)), 1u);
-  EXPECT_EQ(hits_of(kick, {false, true}, facing(1, 60)), 0u);
+  EXPECT_EQ(hits_of(kick, facing(1, 60)), 1u);
+  EXPECT_EQ(hits_of(kick, facing(1, 60), 0), 0u);
 }
 
 TEST_F(RepliesTest, AStrikeOfABystanderLandsOnOneOfTheTwo) {
   prune_nothing();
   const InFlight cross(tables(), launch("cross", 0, {0, -.8f, 0}));
   // One in the other: whatever meets one meets both.
-  EXPECT_EQ(hits_of(cross, {true, true}, facing(.1f, 60)), 1u);
+  EXPECT_EQ(hits_of(cross, facing(.1f, 60)), 1u);
 }
 
 TEST_F(RepliesTest, ThePlannerAsksThoseThatFightItAndStand) {

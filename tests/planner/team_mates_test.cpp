@@ -13,8 +13,8 @@ class TeamMatesTest : public DuelFixture {
   TeamMatesTest() { prune_nothing(); }
   // A third fighter, of the team of fighter 0 or of nobody's.
   void add_third(const Launch& launch, bool mate) {
-    setup_.others = {{InFlight(tables(), launch), FighterId(2), 0}};
-    setup_.others[0].strikes = {!mate, true};
+    setup_.others = {{InFlight(tables(), launch), FighterId(2), 0, mate ? 0 : -1}};
+    setup_.side[0].team = 0;
   }
   // What the front kick of fighter 0 meets in its first second.
   std::vector<DuelEvent> kicked(const FightState& state) {
