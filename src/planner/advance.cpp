@@ -27,7 +27,7 @@ Tick next_multiple(Tick tick, Tick every) {
   return (tick / every + 1) * every;
 }
 
-// Of a move under which bodies are so deep, m, at the first tick that is too deep: in mm.
+// Of a move under which bodies get so deep, m: in mm.
 std::int32_t fault_of(float depth) {
   return 1 + static_cast<std::int32_t>(depth * 1000);
 }
@@ -310,22 +310,21 @@ std::int32_t Duel::penetration_fault(const Node& node, int mover, Tick from, Tic
   const CostSpan span(setup_->cost, CostPart::penetration);
   const PruneSettings& prune = setup_->settings.prune;
   const InFlight& self = duelist(node, mover).flight;
-  const auto least = static_cast<float>(prune.penetration_m);
   const Tick every = std::max<Tick>(1, prune.penetration_every);
+  const auto least = static_cast<float>(prune.penetration_m);
+  float most = least;
   for (Tick tick = next_multiple(from, every); tick <= to; tick += every) {
-    float deepest = 0;
     for (int i = 0; i < 2; ++i) {
       if (i == mover) continue;
-      deepest = std::max(deepest, penetration_at(self, duelist(node, i).flight, tick, least));
+      most = std::max(most, penetration_at(self, duelist(node, i).flight, tick, most));
     }
     for (std::size_t k = 0; k < setup_->others.size(); ++k) {
       if (setup_->others[k].lies() || mover == 2 + static_cast<int>(k)) continue;
       const bool foes = may_strike_each_other(mover, k);
-      deepest = std::max(deepest, penetration_at(self, bystander(node, k), tick, least, foes));
+      most = std::max(most, penetration_at(self, bystander(node, k), tick, most, foes));
     }
-    if (deepest > 0) return fault_of(deepest);
   }
-  return 0;
+  return most > least ? fault_of(most) : 0;
 }
 
 // A launch is looked at as a whole: its edge ends where the opponent acts, and whoever moves then

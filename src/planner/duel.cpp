@@ -264,11 +264,9 @@ void Duel::check(const Node& /*node*/, const Move& move, Child<Node>& child) {
   const InFlight& self = duelist(child.node, move.side).flight;
   // Who is asked for a reply cuts the edge, and is not to blame for where its mover goes on to.
   const Tick to = move.side < 2 && asks(child.node) ? sides_end(child.node) : child.node.now;
-  std::int32_t deep =
-      child.node.checked == self.launch.start ? launch_fault(child.node, move.side) : 0;
-  if (deep == 0) {
-    deep = penetration_fault(child.node, move.side, child.node.checked, to);
-  }
+  std::int32_t& deep = child.node.too_deep;
+  if (child.node.checked == self.launch.start) deep = launch_fault(child.node, move.side);
+  deep = std::max(deep, penetration_fault(child.node, move.side, child.node.checked, to));
   if (deep > 0) ++counts_.penetration;
   child.fault += deep;
   child.node.checked = to;
@@ -288,7 +286,7 @@ bool Duel::resume(const Node& /*node*/, const Move& move, Child<Node>& child) {
 
 Child<DuelNode> Duel::step(const Node& node, const Move& move) {
   Child<Node> child{node, 0};
-  child.node.checked = node.now;
+  child.node.checked = node.now, child.node.too_deep = 0;
   if (move.side >= 2) {
     reply(child.node, move);
     child.fault = advance(child.node, move);

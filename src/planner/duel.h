@@ -46,6 +46,7 @@ struct DuelNode {
   std::int32_t gained = 0;        // f along the route so far, thousandths
   std::uint64_t threats_met = 0;  // bit 4 * other + strike: one of another's first four has landed
   Tick checked = 0;               // up to where the last edge was looked at for penetration
+  std::int32_t too_deep = 0;      // and what its mover is blamed for until there
   Duelist reply;                  // the bystander that has replied
   std::int32_t replier = -1;      // which, an index into DuelSetup::others
   std::int32_t asked = 0;         // of DuelSetup::repliers, those that have had their choice

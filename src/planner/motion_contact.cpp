@@ -140,6 +140,7 @@ std::optional<Contact> contact_at(const InFlight& attacker, const StrikeTable& s
 namespace {
 
 constexpr float kBoxRounding = 1e-4f;  // m
+constexpr float kInside = 1e-6f;       // m: what is no farther out of a box than that is in it
 
 // Whether bodies in these boxes, that of a as `seen` from b, are on no axis of either box farther
 // into each other than `least`: no two parts of them can be then.
@@ -169,8 +170,9 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
   const float bounds = std::max(0.0f, bound_a.radius + bound_b.radius - least);
   if (glm::distance2(seen.to_outer(bound_a.center), bound_b.center) >= bounds * bounds) return 0;
   if (boxes_apart(seen, a.table->box_at(age_a), b.table->box_at(age_b), least)) return 0;
-  // The parts of a that are farther than `least` in the box around b, and of those the parts of b
-  // whose spheres are. A part is no deeper in another than the sphere around it is.
+  // The parts of a that are farther than `least` in the box around b, or have their middle in it,
+  // and of those the parts of b whose spheres are. A part is no deeper in another than the sphere
+  // around it is.
   const PartSpheres &spheres_a = a.table->spheres_at(age_a),
                     &spheres_b = b.table->spheres_at(age_b);
   const Box& box_b = b.table->box_at(age_b);
@@ -184,7 +186,7 @@ float penetration_at(const InFlight& a, const InFlight& b, Tick tick, float leas
     const float out_x = std::max(0.0f, std::max(box_b.low.x - x[i], x[i] - box_b.high.x));
     const float out_y = std::max(0.0f, std::max(box_b.low.y - y, y - box_b.high.y));
     const float out_z = std::max(0.0f, std::max(box_b.low.z - z[i], z[i] - box_b.high.z));
-    const float reach = std::max(0.0f, spheres_a.radius[i] - slack);
+    const float reach = std::max(kInside, spheres_a.radius[i] - slack);
     const float out = out_x * out_x + out_y * out_y + out_z * out_z;
     own |= bit_where_below(i, out, reach * reach);
   }

@@ -70,7 +70,7 @@ concept Game = requires(G& game, const typename G::Node& node, const typename G:
 // - step(node, move) and check(node, move, child), which together are apply(): the part of a fault
 //   that costs much is added by check(), and is not asked for where the child cannot matter;
 // - resume(node, move, child): the horizon of an earlier search cut the child off; plays it on to
-//   this one's, as step() would, what was checked aside. False where it had to begin anew;
+//   this one's, as step() would; check() follows anew. False where it had to begin anew;
 // - counts() and count(counts): what it counts, so that what is kept is counted again.
 
 inline constexpr std::int32_t kWorst = std::numeric_limits<std::int32_t>::min() / 4;
@@ -343,7 +343,7 @@ class Search {
       if constexpr (requires { game.resume(node, edge.move, edge.child); }) {
         if (edge.stepped && game.resume(node, edge.move, edge.child)) {
           count(game, edge.by_step);
-          edge.checked = edge.checked && edge.found > 0;
+          edge.checked = false;
           return;
         }
       }

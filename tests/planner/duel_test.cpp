@@ -84,7 +84,9 @@ TEST_F(DuelTest, PenetrationAgreesWithThatOfTheWorld) {
     const Tick tick = random.below(30);
     const float truth = deepest_penetration(in_world(a, tick), in_world(b, tick)).depth;
     EXPECT_NEAR(penetration_at(a, b, tick), truth, 1e-4f);
-    EXPECT_NEAR(penetration_at(a, b, tick, 0.03f), truth > 0.03f ? truth : 0, 1e-4f);
+    for (const float least : {0.03f, 0.1f, 0.15f, 0.2f}) {  // small parts are less than that thick
+      EXPECT_NEAR(penetration_at(a, b, tick, least), truth > least ? truth : 0, 1e-4f);
+    }
     deep += truth > 0.03f ? 1 : 0;
   }
   EXPECT_GT(deep, 50);
@@ -805,6 +807,30 @@ TEST_F(DuelTest, WalkingIntoTheOtherIsPruned) {
   Duel unpruned(setup_, 240);
   node = unpruned.apply(root, choice(root, 0, "step_fore")).node;
   EXPECT_EQ(unpruned.apply(node, choice(node, 1, "step_fore")).fault, 0);
+}
+
+// Where every move leads into the other, that is made which leads the least deep, not the one that
+// begins so.
+TEST_F(DuelTest, AFaultIsHowDeepTheEdgeLeads) {
+  const Tick every = setup_.settings.prune.penetration_every;
+  for (const char* action : {"idle", "step_fore"}) {
+    FightState state = facing(0.48f, 60);
+    state.fighters[1].launch = launch("step_fore", -4, state.fighters[1].launch.placement);
+    Duel game(setup_, 240);
+    const DuelNode root = Duel::root(setup_, state);
+    const Child<DuelNode> child = game.apply(root, choice(root, 0, action));
+    std::vector<float> depths;
+    for (Tick tick = 0; tick <= child.node.now; tick += every) {
+      depths.push_back(penetration_at(child.node.side[0].flight, child.node.side[1].flight, tick));
+    }
+    const auto first = std::find_if(depths.begin(), depths.end(), [&](float depth) {
+      return depth > static_cast<float>(setup_.settings.prune.penetration_m);
+    });
+    ASSERT_NE(first, depths.end()) << action;
+    const float deepest = *std::max_element(depths.begin(), depths.end());
+    EXPECT_GT(deepest, *first + 0.01f) << action;
+    EXPECT_NEAR(child.fault, 1000 * deepest, 1) << action;
+  }
 }
 
 // Where it goes once its action is over nobody knows; until then it stands where that ends.
