@@ -124,13 +124,16 @@ Launch following(const MotionLibrary& library, const Launch& last, ActionId next
   return launch;
 }
 
-float turned_away(const MotionLibrary& library, const Action& action, Tick age) {
+float not_brought_back(float turn) {
   constexpr float kBroughtBack = radians(90);
+  return turn - std::clamp(turn, -kBroughtBack, kBroughtBack);
+}
+
+float turned_away(const MotionLibrary& library, const Action& action, Tick age) {
   const Pose* guard = standing_guard(library, action.stance);
   const float faces = guard == nullptr ? 0.0f : heading_of(guard->rotation[0]);
-  const float off = wrapped_angle(heading_of(action.clip.at(age).rotation[0]) -
-                                  action.clip.root_at(age).yaw - faces);
-  return off - std::clamp(off, -kBroughtBack, kBroughtBack);
+  return not_brought_back(wrapped_angle(heading_of(action.clip.at(age).rotation[0]) -
+                                        action.clip.root_at(age).yaw - faces));
 }
 
 Placement answers_from(const MotionLibrary& library, const Launch& cut, Tick tick, float scale) {

@@ -96,8 +96,12 @@ inline constexpr Tick kLyingTicks = 100;
 // out, what else the attack holds is not thrown. The launch's end for anything but an attack.
 Tick free_after_fall(const Action& action, const Launch& launch, Tick now);
 
-// How far, rad, the body that shows a clip at the age `age` has turned from the way
-// its root faces, as in a spin, beyond what an answer brings back: that begins turned by so much.
+// Of a turn off the way that an answer would face, rad, what is beyond 90 degrees (authored): so
+// much it brings back, and begins turned by the rest.
+float not_brought_back(float turn);
+
+// The same of the body that shows a clip at the age `age`, off the way its root faces, as in a
+// spin.
 float turned_away(const MotionLibrary& library, const Action& action, Tick age);
 
 // Where the answer to a blow at `tick` begins: at the root of the struck body, the way it has

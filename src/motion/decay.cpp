@@ -129,14 +129,13 @@ void BodyTurn::step(float dt) {
 
 BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
                    std::optional<float> longest) {
-  constexpr float kCarries = .15f;  // s: a spin goes on so far at least
-  constexpr float kReach = .71f;    // m: what turns with the hips reaches so far
+  constexpr float kReach = .71f;  // m: what turns with the hips reaches so far
   const Quat carried = glm::normalize(shown * glm::inverse(before) * shown);
   const YawAndLean was(shown), is(carried), clip(now), next(after);
   const float yaw_velocity =
       (wrapped_angle(is.yaw - was.yaw) - wrapped_angle(next.yaw - clip.yaw)) / kTickSeconds;
   const Vec3 lean_velocity = (is.lean - was.lean - (next.lean - clip.lean)) / kTickSeconds;
-  const float on = yaw_velocity * kCarries;
+  const float on = yaw_velocity * kSpinCarries;
   const auto stops = [&](Vec3 velocity) {
     return longest ? stopping_seconds(velocity * kReach) : seconds;
   };

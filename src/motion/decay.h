@@ -36,6 +36,9 @@ class Decay {
 // rad/s about the vertical, as fast as fighters turn: a spin beyond it is braked.
 inline constexpr float kFastestTurn = 8;
 
+// s in which a spin goes on as it is at least, before it is taken off.
+inline constexpr float kSpinCarries = .15f;
+
 // How far, m, what hangs on a joint reaches from it.
 float lever_of(const Skeleton& skeleton, Joint joint);
 

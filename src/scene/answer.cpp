@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "motion/decay.h"
 #include "physics/partial.h"
 #include "physics/response.h"
 
@@ -24,29 +25,29 @@ void carry(const MotionLibrary& library, float scale, const Pose& shown, Tick ti
   launch.placement.z += off.z;
 }
 
-}  // namespace
-
-bool falls_already(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
-                   const ImpactInput& input) {
-  return lies(body, input.pose) || library.action(cut.action).ends_lying != Lying::none;
+// How far the body has spun by the end of its simulation, where it would come to a stop, off the
+// way that the clip faces there, beyond what is brought back.
+float spun_away(const Pose& before, const Pose& shown, const Pose& clip) {
+  const float heading = heading_of(shown.rotation[0]);
+  const float spin = wrapped_angle(heading - heading_of(before.rotation[0])) / kTickSeconds;
+  const float off = wrapped_angle(heading - heading_of(clip.rotation[0]));
+  return not_brought_back(off + spin * kSpinCarries);
 }
 
-bool rises(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
-           const ImpactInput& input) {
-  return library.action(cut.action).kind == Kind::get_up && !lies(body, input.pose) &&
-         !on_its_feet(body, input.pose);
-}
-
-Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
-                 const ImpactInput& input, const ImpactOutcome& decided) {
+// The answer, begun `turned` rad from where the cut action would have it begin. Who is spun farther
+// than an answer brings back is asked once more, for one that begins as far round.
+Answer answer_turned(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+                     Tick now, const ImpactInput& input, const ImpactOutcome& decided,
+                     float turned) {
   const Stance stance = library.action(cut.action).stance;
-  const float facing = answers_from(library, cut, now, body.scale).yaw;
+  const float facing = wrapped_angle(answers_from(library, cut, now, body.scale).yaw + turned);
   ImpactOutcome outcome = decided;
   const bool down = falls_already(library, body, cut, input);
   if (down) outcome.response = ResponseKind::knockdown;
   const ActionId response = choose_response(library, body, outcome, facing, stance);
   Answer answer;
   answer.launch = forced_response(library, cut, response, now, body.scale);
+  answer.launch.placement.yaw = facing;
   // Who steps goes from where it is, not from where the cut action stood, and so does who lies; who
   // keeps its feet where they are comes back over them.
   const bool steps = outcome.response == ResponseKind::recovery_steps;
@@ -80,9 +81,32 @@ Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Laun
   }
   answer.simulated = simulate_response(body, input, outcome, target, ticks,
                                        lying_poses(library, body.skeleton, stance));
+  if (!falls && turned == 0) {
+    const auto end = answer.simulated.end();
+    const float spun = spun_away(end[-2], end[-1], target[static_cast<std::size_t>(ticks)]);
+    if (spun != 0) return answer_turned(library, body, cut, now, input, decided, spun);
+  }
   if (steps) carry(library, body.scale, answer.simulated.back(), now + ticks, answer.launch);
   if (falls) answer.launch.end = now + static_cast<Tick>(answer.simulated.size());
   return answer;
+}
+
+}  // namespace
+
+bool falls_already(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+                   const ImpactInput& input) {
+  return lies(body, input.pose) || library.action(cut.action).ends_lying != Lying::none;
+}
+
+bool rises(const MotionLibrary& library, const BodyModel& body, const Launch& cut,
+           const ImpactInput& input) {
+  return library.action(cut.action).kind == Kind::get_up && !lies(body, input.pose) &&
+         !on_its_feet(body, input.pose);
+}
+
+Answer answer_to(const MotionLibrary& library, const BodyModel& body, const Launch& cut, Tick now,
+                 const ImpactInput& input, const ImpactOutcome& outcome) {
+  return answer_turned(library, body, cut, now, input, outcome, 0);
 }
 
 Pose part_of_answer(const Skeleton& skeleton, const Pose& rest, const Pose& clip, float share,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "motion/quality.h"
 #include "physics/ragdoll.h"
@@ -288,6 +289,28 @@ TEST(StruckBodies, TurnBackNoFasterThanTheirLimbsMayGoRound) {
       {"roundhouse_rear_middle", .42770613, Part::head, {4.095782f, 0, -16.445591f}, .871910f}};
   for (const StruckCase& c : cases) {
     EXPECT_LT(velocity_jump(answer_to_case(c), 24, 120), 1.5f) << c.action;
+  }
+}
+
+// Who is spun by the blow, as a kicker on one leg is, answers from where it comes to a stop: it
+// went on round to where it had faced, through 278 to 303 degrees.
+TEST(StruckBodies, AnswerFromWhereTheBlowHasSpunThem) {
+  const std::vector<StruckCase> cases{
+      {"knee_rear", .3741625, Part::left_upper_arm, {7.42f, 0, -18.8f}, .884f},
+      {"leg_sweep", .37792948, Part::head, {-2.0898595f, 0, -32.920799f}, .9167663f},
+      {"roundhouse_rear_low", .47024613, Part::chest, {-27.46198f, 0, -21.972347f}, .89119923f},
+      {"roundhouse_rear_low", .4219, Part::left_thigh, {6.62f, 0, -10.87f}, .865f}};
+  for (const StruckCase& c : cases) {
+    const HitAnswer answer = answer_to_case(c);
+    float turned = 0, farthest = 0;
+    std::optional<float> last;
+    for (const Pose& frame : frames_from_hit(answer).first(ticks(1))) {
+      const float heading = heading_of(frame.rotation[0]);
+      turned += wrapped_angle(heading - last.value_or(heading));
+      farthest = std::max(farthest, std::abs(turned));
+      last = heading;
+    }
+    EXPECT_LT(farthest, radians(150)) << c.action << " at " << c.at_s;
   }
 }
 
