@@ -13,6 +13,7 @@ constexpr float kFlungSpin = 60;   // rad/s: as fast as limbs are shown
 constexpr float kCaughtSpin = 7;   // rad/s: as fast as they turn when they have been caught
 constexpr float kCaughtBend = 5;   // rad/s: and bend
 constexpr float kCaughtEnd = 5;    // m/s about the hips: as fast as their ends go then
+constexpr float kCaughtArm = 10;   // rad/s: as fast as a forearm turns with the body then
 constexpr float kFlung = .03f;     // s: until then struck limbs fly as they do
 constexpr float kCaughtBy = .10f;  // s: by then they are caught
 
@@ -53,19 +54,26 @@ FlungLimbs::FlungLimbs(const BodyModel& body, const ImpactFrame& frame)
 // What the body's spin takes along already waits with what it does by itself: of both together a
 // hand would come round faster than any arm could hold it.
 void FlungLimbs::slow_end(Side side, const Limb& limb, float caught, Pose& pose) const {
-  const auto end = [&](const Pose& p) {
-    const WorldPose world = world_pose(body_.skeleton, p);
+  const WorldPose was = world_pose(body_.skeleton, last_);
+  const auto out = [&](const WorldPose& world) {
     return world.position[index(limb.end)] - world.position[index(Joint::hips)];
   };
-  const Vec3 was = end(last_);
-  const auto speed = [&](const Pose& p) { return glm::distance(end(p), was) / kTickSeconds; };
-  const float goes = speed(pose);
-  if (goes <= kCaughtEnd) return;
+  // How fast the end goes, or an arm turns, against what is caught.
+  const auto haste = [&](const Pose& p) {
+    const WorldPose world = world_pose(body_.skeleton, p);
+    const float goes = glm::distance(out(world), out(was)) / (kCaughtEnd * kTickSeconds);
+    if (is_leg(limb)) return goes;
+    const std::size_t lower = index(limb.middle);
+    const Quat turn = world.rotation[lower] * glm::conjugate(was.rotation[lower]);
+    return std::max(goes, glm::length(rotation_vector(turn)) / (kCaughtArm * kTickSeconds));
+  };
+  const float goes = haste(pose);
+  if (goes <= 1) return;
   Pose waiting = pose;
   go_on(side, limb, 0, last_, waiting);
-  const float taken_along = speed(waiting);
+  const float taken_along = haste(waiting);
   if (taken_along >= goes) return;
-  const float share = std::max(0.0f, kCaughtEnd - taken_along) / (goes - taken_along);
+  const float share = std::max(0.0f, 1 - taken_along) / (goes - taken_along);
   go_on(side, limb, glm::mix(1.0f, share, caught), last_, pose);
 }
 

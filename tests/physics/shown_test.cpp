@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "motion/ik.h"
 #include "physics/braking.h"
 #include "physics/flung_limbs.h"
 #include "physics/hit.h"
@@ -232,8 +233,6 @@ TEST_F(Shown, NoHitExplodes) {
   }
 }
 
-// Hips that a kicking leg takes along turn as they are thrown while limbs fly, and once these are
-// caught no faster than fighters turn, whatever the simulation does.
 TEST_F(Shown, AFootIsHeldNoFartherThanItsLegCanTurn) {
   const Hit hit(body, fighting, Part::head, {0, 0, -1});
   const ImpactFrame frame(body, hit.input);
@@ -255,6 +254,8 @@ TEST_F(Shown, AFootIsHeldNoFartherThanItsLegCanTurn) {
   }
 }
 
+// Hips that a kicking leg takes along turn as they are thrown while limbs fly, and once these are
+// caught no faster than fighters turn, whatever the simulation does.
 TEST(FlungLimbs, HipsComeRoundNoFasterThanFightersTurn) {
   const BodyModel body = make_body({});
   Hit hit(body, stance::fighting(body), Part::abdomen, {0, 0, 5});
@@ -270,6 +271,35 @@ TEST(FlungLimbs, HipsComeRoundNoFasterThanFightersTurn) {
   EXPECT_NEAR(turned(.10f, 12), 8, .01f);
   EXPECT_NEAR(turned(.15f, -20), 8, .01f);
   EXPECT_NEAR(turned(.15f, 7), 7, .01f);
+}
+
+// A forearm turns no faster than by 10 rad/s with what the trunk takes it along by, and by that
+// alone where it is more.
+TEST(FlungLimbs, AnArmWaitsWithItsOwnSwingForTheSpin) {
+  const BodyModel body = make_body({});
+  Hit hit(body, stance::fighting(body), Part::abdomen, {0, 0, 5});
+  const ImpactFrame frame(body, hit.input);
+  const std::size_t elbow = index(arm(Side::right).middle), shoulder = index(arm(Side::right).root);
+  // rad/s about the vertical, of the trunk and of the arm in the world
+  const auto turned = [&](float seconds, float trunk, float own) {
+    FlungLimbs limbs(body, frame);
+    Pose pose = frame.pose();
+    const WorldPose was = world_pose(body.skeleton, pose);
+    const auto turn = [&](Joint joint, float rate) {
+      set_world_rotation(body.skeleton, joint,
+                         yaw_rotation(rate * kTickSeconds) * was.rotation[index(joint)], pose);
+    };
+    turn(Joint::spine, trunk);
+    turn(joint_at(shoulder), own);
+    limbs.slow(seconds, pose);
+    const WorldPose is = world_pose(body.skeleton, pose);
+    return glm::length(rotation_vector(is.rotation[elbow] * glm::conjugate(was.rotation[elbow]))) *
+           kTicksPerSecond;
+  };
+  EXPECT_NEAR(turned(.02f, 7, 13), 13, .05f);
+  EXPECT_NEAR(turned(.10f, 7, 13), 10, .05f);
+  EXPECT_NEAR(turned(.10f, 7, 9), 9, .05f);
+  EXPECT_NEAR(turned(.10f, 12, 18), 12, .05f);
 }
 
 // A whole body turned by 13 rad/s is down to what fighters turn with by themselves before the clip
