@@ -298,6 +298,7 @@ TEST(StruckBodies, AnswerFromWhereTheBlowHasSpunThem) {
   const std::vector<StruckCase> cases{
       {"knee_rear", .3741625, Part::left_upper_arm, {7.42f, 0, -18.8f}, .884f},
       {"leg_sweep", .37792948, Part::head, {-2.0898595f, 0, -32.920799f}, .9167663f},
+      {"roundhouse_rear_low", .47024613, Part::chest, {-27.46198f, 0, -21.972347f}, .89119923f},
       {"roundhouse_rear_low", .4219, Part::left_thigh, {6.62f, 0, -10.87f}, .865f}};
   for (const StruckCase& c : cases) {
     const HitAnswer answer = answer_to_case(c);
