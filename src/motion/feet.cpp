@@ -84,6 +84,13 @@ float ball_floor(const Skeleton& skeleton, Quat foot) {
   return std::max(skeleton.toe_height(), -(foot * heel).y);
 }
 
+// The same of one that lies on an edge of its sole.
+float sole_floor(const Skeleton& skeleton, Quat foot) {
+  return std::max(ball_floor(skeleton, foot),
+                  skeleton.toe_height() * (foot * kUp).y +
+                      kHalfSole * skeleton.height * std::abs((foot * kLeft).y));
+}
+
 // Rolls a foot back that lies over on an edge of its sole as that comes down to the floor, at most
 // until it lies over no farther than the clip's.
 Quat edge_on_floor(const Skeleton& skeleton, Quat foot, float ball_height, Quat clip_foot) {
@@ -165,7 +172,7 @@ void Feet::amend(const WorldPose& world) {
 // Whether a simulated foot rests on the floor, under a body that is up.
 bool Feet::stands_still(const Foot& foot) const {
   return hips_height_ > kCrouched * skeleton_.leg_length() &&
-         foot.ball.y < skeleton_.toe_height() + kResting &&
+         foot.ball.y < sole_floor(skeleton_, foot.shown) + kResting &&
          glm::distance(foot.ball, foot.ball_before) < kStill * kTickSeconds;
 }
 
@@ -217,7 +224,9 @@ void Feet::stitch_foot(Side side, const Seam& seam) {
   const Vec3 moved = foot.led - foot.led_before;
   const Vec3 offset = foot.led + moved - now.position[ball];
   const Vec3 velocity = (moved - clip_moved) / kTickSeconds;
-  if (foot.mode == Mode::swing) {
+  if (simulated && !foot.by_joints) {  // rests on the floor, wherever the clip's is
+    stand(foot, ball_floor(skeleton_, foot.shown));
+  } else if (foot.mode == Mode::swing) {
     begin_move(foot, Mode::swing, offset, velocity, seconds);
   } else if (moved.y < 0 && foot.ball.y < skeleton_.toe_height() + kNearlyDown &&
              glm::length(on_ground(moved)) < kLandingSpeed * kTickSeconds) {
@@ -294,10 +303,15 @@ void Feet::stand_aside(Side side, Vec3 offset) {
   foot.load = 0;  // the hips sink for it bit by bit
 }
 
-// A clip that lifts this foot while the other is in the air on its own: it carries until the other
-// is down, unless the clip goes far meanwhile.
-bool Feet::lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const {
-  return foot.mode == Mode::held && other_foot.mode == Mode::step &&
+// In the air where the clip does not have it: the other foot carries alone.
+bool Feet::off_the_floor(const Foot& foot) {
+  return foot.by_joints || foot.mode == Mode::step;
+}
+
+// A clip that lifts this foot meanwhile: it carries until the other is down, unless the clip goes
+// far.
+bool Feet::lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) {
+  return foot.mode == Mode::held && off_the_floor(other_foot) &&
          glm::distance(foot.ball, clip_ball) < kLongestWait;
 }
 
@@ -345,7 +359,7 @@ void Feet::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
     return;
   }
   // 3. Left behind: a step of its own, while the other foot carries or where the leg is too short
-  // or at the end of its range.
+  // or it may not stay.
   const bool other_carries = stands(other_foot) && since_step_ > kBetweenSteps;
   const bool left_behind =
       foot.mode == Mode::held && (strained || (astray > settings_.restep_distance &&

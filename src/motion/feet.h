@@ -38,8 +38,7 @@ class Feet {
   void show(const WorldPose& world);
   void amend(const WorldPose& world);
 
-  // The leg of a foot that stands will be at the end of a joint's range soon: it takes a step of
-  // its own in the next tick.
+  // A foot that stands may not stay there: it takes a step of its own in the next tick.
   void strain(Side side) { of(side).strained = true; }
 
   // A foot that stands `offset`, m on the ground, off where it was led.
@@ -76,7 +75,7 @@ class Feet {
     Decay turn;              // of the foot's world rotation to the clip's
     bool by_joints = false;  // swings as the leg's joints take it
     bool rests = false;      // held, and has come down
-    bool strained = false;   // its leg is near the end of its range
+    bool strained = false;   // it may not stay where it stands
     float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it
@@ -114,7 +113,8 @@ class Feet {
   void begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity, float least_seconds) const;
   void stand(Foot& foot, float floor) const;
   bool stand_as_shown(Foot& foot) const;
-  bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball) const;
+  static bool off_the_floor(const Foot& foot);
+  static bool lift_waits(const Foot& foot, const Foot& other_foot, Vec3 clip_ball);
   void change_mode(Side side, bool planted, Vec3 clip_ball, float floor);
   Vec3 ball_of(Side side, bool planted, Vec3 clip_ball, Vec3 blended_ball, float floor);
   void lead(Foot& foot, Quat clip_turn, Vec3 hips_turn) const;

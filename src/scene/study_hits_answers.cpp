@@ -115,6 +115,32 @@ double deepest_sole(const BodyModel& body, std::span<const Pose> frames, std::si
   return static_cast<double>(-lowest);
 }
 
+// The longest time, s, from tick `from` of an answer on, in which neither foot carries where one of
+// its clip's does: each off the floor, or on its way over it.
+double longest_hop(const MotionLibrary& library, const BodyModel& body, const FighterTrack& track,
+                   const Launch& launch, Tick from) {
+  constexpr float kOff = .012f, kMoves = .4f * kTickSeconds;  // m: over the floor, and in a tick
+  const std::vector<FootContacts>& clip = library.action(launch.action).clip.contacts;
+  const Tick end = std::min(launch.end, static_cast<Tick>(track.frames.size()));
+  Tick longest = 0, hop = 0;
+  for (Tick t = from; t < end; ++t) {
+    const auto at = static_cast<std::size_t>(t), age = static_cast<std::size_t>(launch.clip_age(t));
+    if (age >= clip.size()) break;
+    const WorldPose is = world_pose(body.skeleton, track.frames[at]),
+                    was = world_pose(body.skeleton, track.frames[at - 1]);
+    const auto carries = [&](Side side) {
+      const std::size_t ball = index(toes(side));
+      const Vec3 moved = is.position[ball] - was.position[ball];
+      return sole_height(body, is, side) < kOff && std::hypot(moved.x, moved.z) < kMoves;
+    };
+    const bool stands = clip[age].left || clip[age].right;
+    const bool hops = stands && !carries(Side::left) && !carries(Side::right);
+    hop = hops ? hop + 1 : 0;
+    longest = std::max(longest, hop);
+  }
+  return seconds(longest);
+}
+
 struct Answered {
   HitQuery query;
   Tick hit = 0;
@@ -122,6 +148,7 @@ struct Answered {
   Seam into_clip, into_get_up, back_to_guard;
   double skate = 0;
   double drag = 0, sole = 0;  // m: along the floor, and in it
+  double hop = 0;             // s: on no foot
   double off = -1;  // rad between the impulse and where the hips go; below 0 where they stay
   int answers = 0, steps = 0;
   double lifts = -1, lands = -1;  // s from the blow: the first step's foot; below 0 where none
@@ -176,9 +203,10 @@ Answered answered(const MotionLibrary& library, const HitQuery& query) {
     const Tick start = s.launch.start;
     if (start < answer->hit_tick) continue;
     if (s.kind == Kind::response) {
-      if (!a.falls)
-        a.into_clip = seam_over(library, body, track, s.launch, start + kSimulated + 1,
-                                start + kSimulated + kBlend);
+      if (a.falls) continue;
+      a.into_clip = seam_over(library, body, track, s.launch, start + kSimulated + 1,
+                              start + kSimulated + kBlend);
+      a.hop = longest_hop(library, body, track, s.launch, start + kSimulated);
     } else if (s.kind == Kind::get_up) {
       a.into_get_up = seam_over(library, body, track, s.launch, start, start + kBlend);
     } else {
@@ -374,7 +402,7 @@ void seam_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows
 
 void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitRows& rows) {
   rows.group("V7 what game makers report wrong");
-  std::vector<double> skate, drag, sole;
+  std::vector<double> skate, drag, sole, hop;
   std::vector<const Answered*> stood;
   std::size_t once = 0, falls = 0, up = 0;
   for (const Answered& a : all) {
@@ -382,6 +410,7 @@ void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitR
       skate.push_back(a.skate);
       drag.push_back(a.drag);
       sole.push_back(a.sole);
+      hop.push_back(a.hop);
       stood.push_back(&a);
     }
     once += a.answers == 1 ? 1 : 0;
@@ -402,6 +431,10 @@ void failure_rows(const HitsAsked& asked, const std::vector<Answered>& all, HitR
     rows.said("a sole deeper than 3 cm in the floor after the simulation", "%",
               share(static_cast<std::size_t>(deep), sole.size()), "");
     rows.said("the same, deepest", "m", quantile(sole, 1), "");
+    const auto long_hop = std::count_if(hop.begin(), hop.end(), [](double t) { return t > .15; });
+    rows.said("neither foot carries for over 0.15 s where one of the clip's does", "%",
+              share(static_cast<std::size_t>(long_hop), hop.size()), "");
+    rows.said("the same, longest time", "s", quantile(hop, 1), "");
   }
   rows.held("hits with exactly one answer", "%", share(once, all.size()), "", at_least(100));
   if (falls > 0) {
