@@ -38,34 +38,60 @@ Result<std::string> read_file(const fs::path& path) {
   return bytes;
 }
 
-Result<void> write_file(const fs::path& path, std::string_view bytes) {
-  const auto failure = [&](int code) -> tl::unexpected<Error> {
-    return input_error(path.string(), "", std::string("cannot be written: ") + std::strerror(code),
-                       "choose an output folder you can write to with --out");
-  };
+namespace {
+
+tl::unexpected<Error> unwritten(const fs::path& path, int code) {
+  return input_error(path.string(), "", std::string("cannot be written: ") + std::strerror(code),
+                     "choose an output folder you can write to with --out");
+}
+
+fs::path part_of(const fs::path& path) {
   fs::path beside = path;
   beside += ".part" + std::to_string(::getpid());
-  {
-    errno = 0;
-    std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-    if (!stream) return failure(errno);
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (!stream) {
-      const int code = errno;
-      std::error_code ignored;
-      fs::remove(beside, ignored);
-      return failure(code);
-    }
-  }
-  std::error_code failed;
-  fs::rename(beside, path, failed);
-  if (failed) {
-    std::error_code ignored;
-    fs::remove(beside, ignored);
-    return failure(failed.value());
-  }
+  return beside;
+}
+
+Result<void> write_part(const fs::path& path, std::string_view bytes) {
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown))
+    return unwritten(path, EISDIR);  // before anything is renamed
+  errno = 0;
+  std::ofstream stream(part_of(path), std::ios::binary | std::ios::trunc);
+  if (!stream) return unwritten(path, errno);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) return unwritten(path, errno);
   return {};
+}
+
+Result<void> put_in_place(const fs::path& path) {
+  std::error_code failed;
+  fs::rename(part_of(path), path, failed);
+  if (failed) return unwritten(path, failed.value());
+  return {};
+}
+
+// Nothing is renamed before everything is written.
+Result<void> write_all(const std::vector<std::pair<fs::path, std::string_view>>& files) {
+  Result<void> done;
+  for (const auto& [path, bytes] : files) {
+    if (done) done = write_part(path, bytes);
+  }
+  for (const auto& [path, bytes] : files) {
+    if (done) done = put_in_place(path);
+  }
+  if (done) return done;
+  for (const auto& [path, bytes] : files) {
+    std::error_code ignored;
+    fs::remove(part_of(path), ignored);
+  }
+  return done;
+}
+
+}  // namespace
+
+Result<void> write_file(const fs::path& path, std::string_view bytes) {
+  return write_all({{path, bytes}});
 }
 
 Result<void> make_output_folder(const fs::path& folder) {
@@ -102,10 +128,9 @@ Result<void> may_write(const fs::path& folder, const std::vector<std::string>& n
 
 Result<void> write_files(const fs::path& folder, const NamedBytes& files) {
   if (auto made = make_output_folder(folder); !made) return made;
-  for (const auto& [name, bytes] : files) {
-    if (auto written = write_file(folder / name, bytes); !written) return written;
-  }
-  return {};
+  std::vector<std::pair<fs::path, std::string_view>> all;
+  for (const auto& [name, bytes] : files) all.emplace_back(folder / name, bytes);
+  return write_all(all);
 }
 
 FolderLock::~FolderLock() {

@@ -26,7 +26,8 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view byte
 Result<void> may_write(const std::filesystem::path& folder, const std::vector<std::string>& names,
                        const std::vector<std::filesystem::path>& inputs);
 
-// Makes the folder and writes files into it, each whole or not at all.
+// Makes the folder and writes files into it: where one cannot be written, those that were there
+// stay as they were.
 using NamedBytes = std::vector<std::pair<std::string, std::string>>;
 Result<void> write_files(const std::filesystem::path& folder, const NamedBytes& files);
 

@@ -82,7 +82,6 @@ TEST_F(FileTest, AFailedWriteLeavesNoPartAndKeepsWhatWasThere) {
   EXPECT_FALSE(write_file(path() / "none" / "x", "x"));
 }
 
-// A device without room: the write is reported, not lost.
 TEST_F(FileTest, AnInputMayNotBeWrittenOverByAResult) {
   const fs::path input = path() / "in.json";
   ASSERT_TRUE(write_file(input, "mine"));
@@ -96,11 +95,26 @@ TEST_F(FileTest, AnInputMayNotBeWrittenOverByAResult) {
   EXPECT_TRUE(may_write(path() / "made", {"in.json"}, {input}));
 }
 
+// A device without room: the write is reported, not lost.
 TEST_F(FileTest, AFullDeviceIsReported) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   fs::create_symlink("/dev/full", path() / ("x.part" + std::to_string(::getpid())));
   EXPECT_FALSE(write_file(path() / "x", "bytes"));
   EXPECT_FALSE(fs::exists(path() / "x"));
+}
+
+// Old and new results are never mixed in one folder.
+TEST_F(FileTest, WhereOneOfSeveralFilesCannotBeWrittenAllStayAsTheyWere) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  ASSERT_TRUE(write_files(path(), {{"a", "old"}, {"b", "old"}, {"c", "old"}}));
+  fs::create_symlink("/dev/full", path() / ("c.part" + std::to_string(::getpid())));
+  EXPECT_FALSE(write_files(path(), {{"a", "new"}, {"b", "new"}, {"c", "new"}}));
+  fs::create_directory(path() / "d");
+  EXPECT_FALSE(write_files(path(), {{"a", "new"}, {"d", "new"}}));
+  for (const char* name : {"a", "b", "c"}) EXPECT_EQ(read_file(path() / name).value(), "old");
+  EXPECT_EQ(entries(), 4u);
+  ASSERT_TRUE(write_files(path(), {{"a", "new"}, {"c", "new"}}));
+  EXPECT_EQ(read_file(path() / "c").value(), "new");
 }
 
 TEST_F(FileTest, AnOutputFolderIsMadeWithItsParentsAndLeftEmpty) {
