@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <regex>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/random.h"
 #include "io/outputs.h"
@@ -338,6 +340,25 @@ TEST(ReplayText, ForgedBytesWithAHashThatFitsNeitherCrashNorHang) {
   }
   EXPECT_GT(accepted, 30u);
   EXPECT_LT(accepted, 300u);
+}
+
+// docs/hits.md says the form, and how long the outcome before the hash is.
+TEST(ReplayText, IsAsItsPageSays) {
+  const auto posed = posed_body(default_library(), query());
+  ASSERT_TRUE(posed);
+  const ImpactInput input = with_impulse(*posed, Part::head, {0, 0, -20}, 1);
+  const ImpactOutcome outcome = impulse_step(posed->body, input);
+  const auto bytes = *from_base64(replay_text(posed->body, input, outcome, 1));
+  const auto page = read_file(RINGCRAFT_SOURCE_DIR "/docs/hits.md");
+  ASSERT_TRUE(page);
+  EXPECT_THAT(*page, HasSubstr(fmt::format("| 1 | form: {} |", bytes.front())));
+  std::smatch row;
+  ASSERT_TRUE(std::regex_search(*page, row, std::regex(R"(\| 4, (\d+) x 4 \| outcome)")));
+  const std::size_t before_hash = 8 + 4 * std::stoul(row[1]);
+  ASSERT_GT(bytes.size(), before_hash);
+  ByteReader floats(std::span<const std::uint8_t>(bytes).last(before_hash));
+  EXPECT_EQ(floats.number(), outcome.direction);
+  EXPECT_EQ(floats.number(), outcome.head_spin);
 }
 
 TEST(ReplayText, ReadsBackWhatWasWritten) {
