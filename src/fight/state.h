@@ -18,7 +18,7 @@ struct Launch {
   Tick end = 0;    // tick at which the fighter acts again; earlier than the clip's end when cut
   Placement placement;  // of action space, world
   float aim = 0;  // rad: turn toward the opponent, eased in over the first half of the startup
-  bool forced = false;     // a response or a get-up: not chosen
+  bool forced = false;     // a response, a get-up or how a winner stands: not chosen
   std::uint8_t spent = 0;  // bit i: strike i has hit, was blocked or was evaded
   // 0..1, of the clip that is shown, where a struck body stays up (physics/partial.h).
   float share = 1;

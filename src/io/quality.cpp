@@ -72,10 +72,9 @@ std::vector<bool> chosen_ticks(const FighterTrack& track) {
   std::vector<bool> chosen(track.frames.size(), false);
   const auto last = static_cast<Tick>(chosen.size());
   for (const Segment& segment : track.segments) {
-    const bool own = segment.kind != Kind::response && segment.kind != Kind::get_up;
     const Tick end = std::min(segment.launch.end, last);
     for (Tick tick = std::max(segment.launch.start, 0); tick < end; ++tick) {
-      chosen[static_cast<std::size_t>(tick)] = own;
+      chosen[static_cast<std::size_t>(tick)] = !segment.launch.forced;
     }
   }
   return chosen;

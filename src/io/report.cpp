@@ -95,7 +95,7 @@ Launches launches_of(const FighterTrack& track) {
   Launches result;
   for (std::size_t i = 1; i < track.segments.size(); ++i) {
     const Segment& segment = track.segments[i];
-    if (segment.kind == Kind::response || segment.kind == Kind::get_up) continue;
+    if (segment.launch.forced) continue;
     ++by_name[segment.name];
     ++result.count;
   }

@@ -244,7 +244,9 @@ void Bout::commit_idle(FighterId id) {
     others.push_back({&stage_.body(other), fighter(other).down(),
                       stage_.continued(other, state_.now, until - state_.now + 1)});
   }
-  begin(id, clearest(library_.of(id), body, state_.now, ways, others));
+  Launch launch = clearest(library_.of(id), body, state_.now, ways, others);
+  launch.forced = true;  // nobody decides on it
+  begin(id, launch);
 }
 
 void Bout::advance_one_tick() {

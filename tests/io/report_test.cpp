@@ -78,9 +78,9 @@ TEST(Report, SaysHowMuchAndHowVariedAFighterLaunches) {
   Timeline timeline = sample::timeline();
   FighterTrack& track = timeline.tracks[0];
   track.segments.clear();
-  for (const char* name : {"opening", "jab", "idle", "jab", "absorb"}) {
-    const bool answers = std::string(name) == "absorb";
-    track.segments.push_back({Launch{}, name, answers ? Kind::response : Kind::attack});
+  for (const char* name : {"opening", "jab", "idle", "jab", "absorb", "idle_of_who_has_won"}) {
+    track.segments.push_back({Launch{}, name, Kind::attack});
+    track.segments.back().launch.forced = track.segments.size() > 4;
   }
   const auto length = static_cast<double>(track.frames.size()) / kTicksPerSecond;
   const json report = report_json(timeline, sample::looks(), sample::library(), facts());
@@ -258,7 +258,7 @@ TEST(Quality, WristSpeedsAreThoseOfChosenActions) {
     track.frames[i].hips.x += 2.0f * static_cast<float>(i) / kTicksPerSecond;
   }
   EXPECT_NEAR(quality_of(timeline, bodies(), sample::library()).wrist_speed_p99_mps, 2, 1e-3);
-  for (Segment& segment : track.segments) segment.kind = Kind::response;
+  for (Segment& segment : track.segments) segment.launch.forced = true;
   EXPECT_EQ(quality_of(timeline, bodies(), sample::library()).wrist_speed_p99_mps, 0);
 }
 

@@ -35,7 +35,7 @@ inline FighterTrack track_of(const std::vector<std::string>& names, const Placem
     launch.action = library().find(name);
     const Action& action = library().action(launch.action);
     launch.end = launch.start + action.length();
-    launch.forced = action.response.has_value();
+    launch.forced = action.forced();
     track.segments.push_back({launch, name, action.kind});
     for (Tick tick = launch.start; tick < launch.end; ++tick) {
       track.frames.push_back(pose_at(library(), launch, tick, scale));

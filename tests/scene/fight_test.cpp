@@ -166,6 +166,15 @@ TEST(Fight, ATeamsBoutEndsWithItsLastEnemy) {
   EXPECT_EQ(out->whom, FighterId(2));
   EXPECT_LT(record.timeline.end, out->tick + 8 * kTicksPerSecond);
   EXPECT_LT(record.timeline.end, scene.duration);
+  // Who has won stands in guard, and has decided on none of it.
+  for (std::size_t i = 0; i < record.timeline.tracks.size(); ++i) {
+    const auto& segments = record.timeline.tracks[i].segments;
+    const auto own = std::count_if(segments.begin() + 1, segments.end(),
+                                   [](const Segment& one) { return !one.launch.forced; });
+    EXPECT_EQ(own, std::count_if(events.begin(), events.end(), [&](const Event& event) {
+                return event.type == EventType::decision && event.who == FighterId(i);
+              }));
+  }
 }
 
 // Two of one team step at each other behind their jabs, so near that their arms cannot give enough.
