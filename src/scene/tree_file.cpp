@@ -141,9 +141,8 @@ std::string step_text(const SceneTree& of, const TreeNode& node, const std::stri
   return text;
 }
 
-Error outside(double at_s, const std::string& what, double until) {
-  return {ErrorKind::usage, "", "--at", fmt::format("{:g} s is {}", at_s, what),
-          fmt::format("give a time from 0 to less than {:g} s", until)};
+Error outside(double at_s, const std::string& what, const std::string& remedy) {
+  return {ErrorKind::usage, "", "--at", fmt::format("{:g} s is {}", at_s, what), remedy};
 }
 
 }  // namespace
@@ -151,14 +150,17 @@ Error outside(double at_s, const std::string& what, double until) {
 Result<SceneTree> tree_at(const MotionLibrary& library, const SceneFile& scene, double at_s,
                           std::size_t most_nodes, const FightOptions& options) {
   const double end = seconds(scene.duration);
-  if (!std::isfinite(at_s)) return tl::unexpected(outside(at_s, "not a time", end));
-  if (at_s < 0) return tl::unexpected(outside(at_s, "before the fight begins", end));
-  if (at_s >= end) return tl::unexpected(outside(at_s, "beyond the scene's end", end));
+  const std::string within = fmt::format("give a time from 0 to less than {:g} s", end);
+  if (!std::isfinite(at_s)) return tl::unexpected(outside(at_s, "not a time", within));
+  if (at_s < 0) return tl::unexpected(outside(at_s, "before the fight begins", within));
+  if (at_s >= end) return tl::unexpected(outside(at_s, "beyond the scene's end", within));
 
+  std::optional<Tick> last;  // at which a line was chosen
   Bout bout(library, scene, options);
   while (const auto fighter = run_to_decision(bout)) {
     const Plan plan = bout.decide(*fighter);
     const bool wanted = seconds(bout.state().now) >= at_s;
+    if (!plan.record.lines.empty()) last = bout.state().now;
     if (!wanted || plan.record.lines.empty()) {
       bout.commit(*fighter, plan);
       continue;
@@ -175,9 +177,13 @@ Result<SceneTree> tree_at(const MotionLibrary& library, const SceneFile& scene, 
     mark_chosen(found.tree, plan, library);
     return found;
   }
-  const double over = seconds(bout.state().now);
-  return tl::unexpected(outside(
-      at_s, fmt::format("after the last decision: the fight was over at {:.2f} s", over), over));
+  if (!last) {
+    return tl::unexpected(outside(at_s, "in a fight in which nobody decides",
+                                  "give it more time, as in --set duration_s=10"));
+  }
+  const double at = std::floor(seconds(*last) * 1000) / 1000;  // not rounded beyond it
+  return tl::unexpected(outside(at_s, fmt::format("after the last decision, at {:.3f} s", at),
+                                fmt::format("give a time from 0 to {:.3f} s", at)));
 }
 
 std::string tree_json(const SceneTree& of) {

@@ -158,6 +158,14 @@ TEST(TreeOfScene, TimesOutsideAreUsageErrors) {
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().kind, ErrorKind::usage);
   EXPECT_NE(late.error().what.find("last decision"), std::string::npos);
+  const double named = std::stod(late.error().remedy.substr(late.error().remedy.rfind(" to ") + 4));
+  EXPECT_NEAR(named, seconds(last), 0.001);
+  EXPECT_TRUE(tree_at(default_library(), scene, named, kNodes));
+  // One that is over before anybody chooses.
+  scene.duration = 12;
+  const auto none = tree_at(default_library(), scene, 0.05, kNodes);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().what.find("nobody decides"), std::string::npos);
 }
 
 }  // namespace
