@@ -138,6 +138,7 @@ FighterId Bout::nearest_opponent(FighterId id) const {
 
 void Bout::begin(FighterId id, const Launch& launch, std::vector<Pose> simulated,
                  const Sway& sway) {
+  if (fighter(id).launch.start < launch.start) note_open_strikes(id);
   fighter(id).launch = launch;
   launched_ = true;
   stage_.begin(id, launch, std::move(simulated), sway);
@@ -258,7 +259,10 @@ void Bout::advance_one_tick() {
     rest(FighterId(i));
     note_strikes(FighterId(i));
   }
-  for (const Touch& touch : touches()) commit_touch(touch);
+  const std::vector<Touch> touching = touches();
+  // First of all: who is struck and answers in this tick has landed its own blow all the same.
+  for (const Touch& touch : touching) fighter(touch.attacker).launch.spend(touch.strike);
+  for (const Touch& touch : touching) commit_touch(touch);
   commit_falls();
   stage_.keep_out_and_record();
   push_apart();
@@ -276,18 +280,32 @@ void Bout::note_strikes(FighterId id) {
     const auto reached = [&](Tick tick) { return before < tick && age >= tick; };
     const bool begins = reached(strike.active_begin);
     const bool missed = reached(strike.active_end) && !launch.has_spent(i);
-    if (begins || missed) note_strike(begins ? EventType::strike : EventType::miss, id, strike);
+    if (begins || missed)
+      note_strike(begins ? EventType::strike : EventType::miss, id, action, strike);
     if (missed) launch.spend(i);
   }
 }
 
-void Bout::note_strike(EventType type, FighterId id, const Strike& strike) {
+// An action is over, cut short it may be, or the bout is: its blows that are on their way land no
+// more.
+void Bout::note_open_strikes(FighterId id) {
+  Launch& launch = fighter(id).launch;
+  const Action& action = action_of(id);
+  const Tick age = launch.clip_age(state_.now);
+  for (std::size_t i = 0; i < action.strikes.size(); ++i) {
+    if (!action.strikes[i].active(age) || launch.has_spent(i)) continue;
+    note_strike(EventType::miss, id, action, action.strikes[i]);
+    launch.spend(i);
+  }
+}
+
+void Bout::note_strike(EventType type, FighterId id, const Action& action, const Strike& strike) {
   Event event;
   event.tick = state_.now;
   event.type = type;
   event.who = id;
   event.whom = fighter(id).opponent;
-  event.action = action_of(id).name;
+  event.action = action.name;
   event.strike = strike.kind;
   event.fatigue = static_cast<float>(standing_[id.at()].condition.fatigue());
   record_.timeline.events.push_back(std::move(event));
@@ -334,12 +352,9 @@ void Bout::commit_touch(const Touch& touch) {
   const FighterId attacker = touch.attacker, target = touch.target;
   const Action& attack = library_.action(touch.action);
   const Strike strike = attack.strikes.at(touch.strike);
-  const bool goes_on = fighter(attacker).launch.action == touch.action;
-  if (goes_on) fighter(attacker).launch.spend(touch.strike);
   if (!may_strike(attacker, target)) {
-    if (!goes_on) return;
-    note_strike(EventType::miss, attacker, strike);
-    stage_.land(attacker, touch.contact);
+    note_strike(EventType::miss, attacker, attack, strike);
+    if (fighter(attacker).launch.action == touch.action) stage_.land(attacker, touch.contact);
     return;
   }
   Event event;
@@ -594,6 +609,7 @@ void Bout::push_apart() {
 FightRecord Bout::record() {
   record_.interrupted = options_.interrupted != nullptr && options_.interrupted->load();
   record_.timeline.end = state_.now;
+  for (std::size_t i = 0; i < state_.fighters.size(); ++i) note_open_strikes(FighterId(i));
   record_.timeline.tracks = stage_.take_tracks();
   for (std::size_t i = 0; i < state_.fighters.size(); ++i) {
     record_.bodies.push_back(stage_.body(FighterId(i)));

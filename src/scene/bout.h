@@ -59,7 +59,8 @@ class Bout {
   void show_planner(FighterId id);
   void rest(FighterId id);
   void note_strikes(FighterId id);
-  void note_strike(EventType type, FighterId id, const Strike& strike);
+  void note_open_strikes(FighterId id);
+  void note_strike(EventType type, FighterId id, const Action& action, const Strike& strike);
   bool may_strike(FighterId attacker, FighterId target) const;
   std::vector<Touch> touches() const;
   std::optional<Touch> touch_of(FighterId attacker, std::size_t strike) const;

@@ -177,6 +177,45 @@ TEST(Fight, ATeamsBoutEndsWithItsLastEnemy) {
   }
 }
 
+// A blow that an answer cuts short, or the end of the bout, has missed.
+TEST(Fight, EveryStrikeLandsIsBlockedOrMisses) {
+  const auto open = [](const Timeline& timeline) {
+    std::vector<int> strikes(timeline.tracks.size(), 0);
+    for (const Event& event : timeline.events) {
+      const bool ends = event.type == EventType::hit || event.type == EventType::block ||
+                        event.type == EventType::miss;
+      if (event.type == EventType::strike) ++strikes.at(event.who.at());
+      if (ends && !event.fall) --strikes.at(event.who.at());
+    }
+    return strikes;
+  };
+  const std::vector<int> none(3, 0);
+  bool cut = false;
+  for (int seed = 6; seed <= 40 && !cut; ++seed) {  // the first that has one
+    const SceneFile scene = scene_of(
+        "brawl3", {"duration_s=3", "planner.node_limit=60", "seed=" + std::to_string(seed)});
+    const Timeline timeline = simulate_fight(default_library(), scene).timeline;
+    EXPECT_EQ(open(timeline), none) << "seed " << seed;
+    for (std::size_t i = 1; i < timeline.events.size(); ++i) {
+      const Event &miss = timeline.events[i - 1], &answer = timeline.events[i];
+      cut |= miss.type == EventType::miss && miss.who == answer.who && miss.tick == answer.tick &&
+             (answer.type == EventType::response || answer.type == EventType::knockdown);
+    }
+  }
+  EXPECT_TRUE(cut);
+  // The bout ends as its first blow is on its way.
+  SceneFile scene = scene_of("brawl3", {"duration_s=3", "planner.node_limit=60"});
+  const Timeline whole = simulate_fight(default_library(), scene).timeline;
+  const auto first = std::find_if(whole.events.begin(), whole.events.end(), [](const Event& event) {
+    return event.type == EventType::strike;
+  });
+  ASSERT_NE(first, whole.events.end());
+  scene.duration = first->tick;
+  const Timeline shorter = simulate_fight(default_library(), scene).timeline;
+  EXPECT_EQ(open(shorter), none);
+  EXPECT_EQ(shorter.events.back().type, EventType::miss);
+}
+
 // Two of one team step at each other behind their jabs, so near that their arms cannot give enough.
 TEST(Fight, BodiesGiveWayWhereLimbsCannot) {
   const MotionLibrary& library = default_library();
