@@ -24,8 +24,8 @@ struct Document {
 
 // Reads `path` and checks it against assets/schemas/<schema>.schema.json. Schemas use a subset of
 // draft 7: type, properties, required, additionalProperties, items, enum, minimum, maximum,
-// exclusiveMinimum, exclusiveMaximum, minItems, maxItems, minLength, maxLength, pattern, and $ref
-// to "#/definitions/...".
+// exclusiveMinimum, exclusiveMaximum, minItems, maxItems, minLength, maxLength, pattern,
+// propertyNames, and $ref to "#/definitions/...".
 Result<Document> read_document(const std::filesystem::path& path, const std::string& schema);
 
 // The same from text; `path` is only for messages.

@@ -192,8 +192,10 @@ class Checker {
     static const json none = json::object();
     const json& properties = schema.contains("properties") ? schema["properties"] : none;
     const auto more = schema.find("additionalProperties");
+    const auto names = schema.find("propertyNames");
     for (const auto& [key, child] : value.items()) {
       const std::string at = json_pointer(pointer, key);
+      if (names != schema.end()) check_string(key, *names, at, "a key of " + name);
       if (const auto known = properties.find(key); known != properties.end()) {
         check(child, *known, at);
       } else if (more != schema.end() && more->is_object()) {
