@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -77,21 +78,25 @@ ActionCut cut_from(const Json& value) {
 
 Result<SkeletonProfile> profile_for(const Document& manifest, const std::string& pointer,
                                     const Json& entry, const RawClip& raw) {
-  const std::filesystem::path folder = assets_folder() / "profiles";
-  const std::string name = text_of(entry, "profile");
-  if (!name.empty() && name.find_first_of("/\\") != std::string::npos)
-    return input_error(manifest.path.string(), manifest.place(pointer + "/profile"),
-                       "a profile is a bare name",
-                       "give the name of a file in assets/profiles without .toml");
-  if (!name.empty()) return read_profile(folder / (name + ".toml"));
-  auto profiles = read_profiles(folder);
+  if (const std::string name = text_of(entry, "profile"); !name.empty())
+    return profile_named(name).map_error([&](Error error) {
+      if (!error.file.empty()) return error;  // of a profile's file
+      error.kind = ErrorKind::input;
+      error.file = manifest.path.string();
+      error.place = manifest.place(pointer + "/profile");
+      return error;
+    });
+  auto profiles = read_profiles(assets_folder() / "profiles");
   if (!profiles) return tl::unexpected(profiles.error());
   return best_profile(*profiles, raw);
 }
 
+using Sheets = std::map<std::string, std::filesystem::path>;  // by the actions' names
+
 struct Collector {
   std::vector<Action> actions;
   std::set<std::string> names;
+  Sheets sheets;
   std::vector<std::string>* notes = nullptr;
 
   void note(std::string text) {
@@ -207,6 +212,13 @@ Result<void> add_capture(const Document& manifest, std::size_t number, const Jso
   if (entry.contains("skeleton"))
     source.skeleton = manifest.path.parent_path() / text_of(entry, "skeleton");
   if (entry.contains("frame_rate")) source.frames_per_second = number_of(entry, "frame_rate");
+  if (const auto wrong = misplaced(path, source))
+    return input_error(manifest.path.string(), manifest.place(pointer + "/" + wrong->key),
+                       wrong->key + " " + wrong->what, "take it out");
+  if (!source.skeleton.empty() && !std::filesystem::exists(source.skeleton, ignored))
+    return input_error(manifest.path.string(), manifest.place(pointer + "/skeleton"),
+                       fmt::format("the skeleton {} is not there", source.skeleton.string()),
+                       "correct the path");
   auto raw = read_capture(path, source);
   if (!raw) return tl::unexpected(raw.error());
   replace_junk_start(*raw);
@@ -257,8 +269,10 @@ Result<void> add_sheets(const Document& manifest, std::size_t number, const std:
   for (const auto& file : files) {
     auto actions = compile_sheet_file(file);
     if (!actions) return tl::unexpected(actions.error());
-    for (Action& action : *actions)
+    for (Action& action : *actions) {
+      out.sheets[action.name] = file;
       if (auto ok = out.add(std::move(action), file.string(), ""); !ok) return ok;
+    }
   }
   return {};
 }
@@ -290,9 +304,26 @@ Result<void> collect(const Document& manifest, Collector& out) {
   return {};
 }
 
+// A word of leads_to, and what is wrong with it.
+struct WrongLead {
+  std::string word, what;
+};
+
+// The first word that names actions of which there is none.
+std::optional<WrongLead> unknown_lead(const std::vector<Action>& actions, const Action& from) {
+  for (const std::string& word : from.leads_to) {
+    const bool known =
+        kind_from_name(word) || std::any_of(actions.begin(), actions.end(),
+                                            [&](const Action& to) { return means(word, to); });
+    if (!known)
+      return WrongLead{word, fmt::format("leads to '{}', and no action is called so", word)};
+  }
+  return std::nullopt;
+}
+
 // What a sheet says of where an action leads is held against the poses: the first word that names
-// actions of which there is none, or none that begins where it ends.
-std::string wrong_lead(const MotionLibrary& library, ActionId from) {
+// actions of which none begins where it ends.
+std::optional<WrongLead> wrong_lead(const MotionLibrary& library, ActionId from) {
   const Action& action = library.action(from);
   for (const std::string& word : action.leads_to) {
     if (kind_from_name(word)) continue;
@@ -307,12 +338,33 @@ std::string wrong_lead(const MotionLibrary& library, ActionId from) {
     });
     if (leads) continue;
     if (nearest == std::numeric_limits<float>::max()) {
-      return fmt::format("leads to '{}', and no action is called so", word);
+      return WrongLead{word, fmt::format("leads to '{}', which was dropped", word)};
     }
-    return fmt::format("leads to '{}', which begins {:.0f} cm from where it ends", word,
-                       100 * nearest);
+    return WrongLead{word, fmt::format("leads to '{}', which begins {:.0f} cm from where it ends",
+                                       word, 100 * nearest)};
   }
-  return "";
+  return std::nullopt;
+}
+
+// Where the sheet says it, of the action or one that it is a variant of, or of all its actions.
+std::string place_of_lead(const std::filesystem::path& sheet, const std::string& action,
+                          const std::string& word) {
+  const auto document = read_document(sheet, "sheet");
+  if (!document) return "";
+  const auto place_in = [&](const Json& said, const std::string& pointer) -> std::string {
+    const Json words = said.value("leads_to", Json::array());
+    const auto at = std::find(words.begin(), words.end(), word);
+    if (at == words.end()) return "";
+    return document->place(fmt::format("{}/leads_to/{}", pointer, at - words.begin()));
+  };
+  const Json& actions = document->value.at("action");
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const std::string name = text_of(actions[i], "name");
+    if (action != name && !action.starts_with(name + "_")) continue;
+    const std::string place = place_in(actions[i], fmt::format("/action/{}", i));
+    if (!place.empty()) return place;
+  }
+  return place_in(document->value, "");
 }
 
 // So many that the library can be read back.
@@ -327,18 +379,28 @@ Result<void> few_enough(const std::filesystem::path& source, const std::vector<A
 
 // The library of `actions`; what cannot be a library is refused before the work where it shows.
 Result<MotionLibrary> connected(const std::filesystem::path& source, const std::string& name,
-                                std::vector<Action> actions, std::vector<std::string> notes,
+                                std::vector<Action> actions, const Sheets& sheets,
+                                std::vector<std::string> notes,
                                 const LibraryBuildSettings& settings) {
   if (auto ok = few_enough(source, actions, "take out captures or sheets"); !ok)
     return tl::unexpected(ok.error());
+  const auto fault = [&](const Action& action, const WrongLead& wrong) {
+    const auto sheet = sheets.find(action.name);
+    const bool known = sheet != sheets.end();
+    return input_error(known ? sheet->second.string() : source.string(),
+                       known ? place_of_lead(sheet->second, action.name, wrong.word) : "",
+                       action.name + " " + wrong.what,
+                       "correct leads_to, or the poses at which the two meet");
+  };
+  for (const Action& action : actions) {
+    if (const auto wrong = unknown_lead(actions, action)) return fault(action, *wrong);
+  }
   MotionLibrary library = connected_library(name, std::move(actions), std::move(notes), settings);
   if (auto ok = few_enough(source, library.actions(), "build it with --not-connected"); !ok)
     return tl::unexpected(ok.error());
   for (std::size_t i = 0; i < library.actions().size(); ++i) {
-    const std::string wrong = wrong_lead(library, ActionId(i));
-    if (wrong.empty()) continue;
-    return input_error(source.string(), library.actions()[i].source, wrong,
-                       "correct leads_to, or the poses at which the two meet");
+    if (const auto wrong = wrong_lead(library, ActionId(i)))
+      return fault(library.actions()[i], *wrong);
   }
   if (library.launchable().empty())
     return input_error(source.string(), "", "no action can follow another",
@@ -374,7 +436,7 @@ Result<MotionLibrary> build_folder(const std::filesystem::path& folder,
   }
   const std::string name =
       clean_name(std::filesystem::weakly_canonical(folder).filename().string());
-  return connected(folder, name, std::move(*actions), std::move(notes), settings);
+  return connected(folder, name, std::move(*actions), {}, std::move(notes), settings);
 }
 
 Result<Document> read_manifest(const std::filesystem::path& path) {
@@ -427,7 +489,7 @@ Result<MotionLibrary> build_library(const std::filesystem::path& source,
   if (auto ok = collect(*document, out); !ok) return tl::unexpected(ok.error());
   if (settings.interpolate.value_or(false)) add_blends(out.actions, settings, notes);
   return connected(source, document->value["name"].get<std::string>(), std::move(out.actions),
-                   std::move(notes), settings);
+                   out.sheets, std::move(notes), settings);
 }
 
 }  // namespace ringcraft

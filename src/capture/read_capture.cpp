@@ -29,6 +29,18 @@ bool is_other_capture_file(const std::filesystem::path& path) {
          kKinds.end();
 }
 
+std::optional<MisplacedSource> misplaced(const std::filesystem::path& path,
+                                         const CaptureSource& source) {
+  if (!is_capture_file(path)) return std::nullopt;  // that is worse
+  constexpr const char* kAcclaim = "goes with .amc files only";
+  const bool acclaim = lowered(path.extension().string()) == ".amc";
+  if (!acclaim && !source.skeleton.empty()) return MisplacedSource{"skeleton", kAcclaim};
+  if (!acclaim && source.frames_per_second) return MisplacedSource{"frame_rate", kAcclaim};
+  if (!is_gltf_file(path) && !source.clip.empty())
+    return MisplacedSource{"clip", "goes with glTF files only: this one holds one motion"};
+  return std::nullopt;
+}
+
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source) {
   const std::string kind = lowered(path.extension().string());
   const bool acclaim = kind == ".amc";
@@ -41,12 +53,8 @@ Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSou
   if (!is_capture_file(path))
     return input_error(path.string(), "", "no capture by its extension",
                        "give a .bvh, .amc, .gltf, .glb, .vrm or .vrma file");
-  if (!acclaim && (!source.skeleton.empty() || source.frames_per_second))
-    return input_error(path.string(), "", "skeleton and frame_rate go with .amc files only",
-                       "take them out");
-  if (!gltf && !source.clip.empty())
-    return input_error(path.string(), "", "this format holds one motion, no clips by name",
-                       "take clip out");
+  if (const auto wrong = misplaced(path, source))
+    return input_error(path.string(), "", wrong->key + " " + wrong->what, "take it out");
   if (gltf) return read_gltf(path, source.clip);
   if (!acclaim) return read_bvh(path);
   auto skeleton = source.skeleton.empty() ? skeleton_beside(path) : source.skeleton;

@@ -22,6 +22,13 @@ bool is_gltf_file(const std::filesystem::path& path);
 bool is_capture_file(const std::filesystem::path& path);        // one that read_capture() takes
 bool is_other_capture_file(const std::filesystem::path& path);  // motion that it does not read
 
+// What `source` says, by its key in a manifest, that is for files of another format.
+struct MisplacedSource {
+  std::string key, what;
+};
+std::optional<MisplacedSource> misplaced(const std::filesystem::path& path,
+                                         const CaptureSource& source);
+
 // .bvh, .amc, .gltf, .glb, .vrm, .vrma (any case).
 Result<RawClip> read_capture(const std::filesystem::path& path, const CaptureSource& source = {});
 

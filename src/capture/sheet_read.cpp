@@ -96,7 +96,13 @@ class Reader {
   Result<void> read_poses() {
     const auto file = document_.value.find("poses");
     if (file != document_.value.end()) {
-      auto other = read_document(document_.path.parent_path() / file->get<std::string>(), "sheet");
+      const auto path = document_.path.parent_path() / file->get<std::string>();
+      std::error_code ignored;
+      if (!std::filesystem::exists(path, ignored)) {
+        return fault("/poses", fmt::format("the sheet {} is not there", path.string()),
+                     "correct the path, from this sheet's folder");
+      }
+      auto other = read_document(path, "sheet");
       if (!other) return tl::unexpected(other.error());
       add_poses(other->value);
     }

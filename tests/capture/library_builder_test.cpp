@@ -13,15 +13,16 @@
 #include "capture/bvh.h"
 #include "capture/cut.h"
 #include "capture/retarget.h"
+#include "capture/small_files.h"
 
 namespace ringcraft {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::filesystem::path kBoxing = "/usr/share/assimp/models/BVH/Boxing_Toes.bvh";
 
-class Manifest : public testing::Test {
+class Manifest : public ::testing::Test {
  protected:
   Result<std::vector<Action>> collect(const std::string& text,
                                       std::vector<std::string>* notes = nullptr) {
@@ -94,10 +95,43 @@ TEST_F(Manifest, WhereASheetSaysThatAnActionLeadsIsHeldAgainstThePoses) {
   const auto unknown = built("[\"idle_*\", \"jabb\"]");
   ASSERT_FALSE(unknown);
   EXPECT_THAT(to_string(unknown.error()),
-              HasSubstr("mine.toml: sway: leads to 'jabb', and no action"));
+              HasSubstr("mine.toml: line 6: sway leads to 'jabb', and no action"));
+  const auto alone = built("[\"attak\"]");  // it was dropped, since nothing leads on from it
+  ASSERT_FALSE(alone);
+  EXPECT_THAT(to_string(alone.error()), HasSubstr("mine.toml: line 6: sway leads to 'attak'"));
   const auto far = built("[\"idle_*\", \"get_up_*\"]");
   ASSERT_FALSE(far);
   EXPECT_THAT(to_string(far.error()), HasSubstr("cm from where it ends"));
+}
+
+// What is wrong is the name, not the file that it would be.
+TEST_F(Manifest, WhatIsNamedWronglyIsSaidWithTheLineThatNamesIt) {
+  std::ofstream(folder_.path() / "a.bvh") << testing::small_bvh();
+  const auto wrong = [&](const std::string& line) {
+    const auto actions =
+        collect("name = \"test\"\n[[capture]]\npath = \"a.bvh\"\nsegment = true\n" + line + "\n");
+    EXPECT_FALSE(actions) << line;
+    return actions ? "" : to_string(actions.error());
+  };
+  EXPECT_THAT(wrong("profile = \"nope\""), HasSubstr("library.toml: line 5: no skeleton profile is "
+                                                     "called 'nope'; known names: bandai_namco, "));
+  EXPECT_THAT(wrong("profile = \"../vrm\""), HasSubstr("library.toml: line 5: "));
+  EXPECT_THAT(wrong("clip = \"walk\""), HasSubstr("library.toml: line 5: clip goes with glTF"));
+  EXPECT_THAT(wrong("frame_rate = 60"),
+              HasSubstr("library.toml: line 5: frame_rate goes with .amc"));
+  EXPECT_THAT(wrong("skeleton = \"a.asf\""), HasSubstr("library.toml: line 5: skeleton goes with"));
+  std::ofstream(folder_.path() / "a.amc") << testing::small_amc();
+  const auto lost = collect(
+      "name = \"test\"\n[[capture]]\npath = \"a.amc\"\nskeleton = \"none.asf\"\n"
+      "segment = true\n");
+  ASSERT_FALSE(lost);
+  EXPECT_THAT(to_string(lost.error()), HasSubstr("library.toml: line 4: the skeleton "));
+  std::ofstream(folder_.path() / "mine.toml")
+      << "poses = \"gard.toml\"\n[[action]]\nname = \"sway\"\n"
+         "kind = \"defense\"\nlength = 0.5\n";
+  const auto poses = collect("name = \"test\"\nsheets = [\"mine.toml\"]\n");
+  ASSERT_FALSE(poses);
+  EXPECT_THAT(to_string(poses.error()), HasSubstr("mine.toml: line 1: the sheet "));
 }
 
 TEST_F(Manifest, CutsThatCannotBeMadeAreErrors) {
@@ -181,7 +215,7 @@ TEST_F(Manifest, AGuardBehindTheCapturesEndIsAnError) {
   EXPECT_THAT(actions.error().place, HasSubstr("line 5"));
 }
 
-class Kickboxing : public testing::Test {
+class Kickboxing : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     if (!std::filesystem::exists(kBoxing)) return;
