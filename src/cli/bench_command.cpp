@@ -31,6 +31,7 @@ int run_bench_command(const std::string& scene_name, const BenchOptions& asked,
   if (!options.quiet) run.said = [](const std::string& line) { tell("{}\n", line); };
 
   const Bench bench = run_bench(*library, *scene, asked.rounds, run);
+  if (bench.rounds == 0) return 130;  // interrupted before there was anything to say
   const nlohmann::json same = bench_json(bench, *scene, *library);
   const nlohmann::json clock = bench_timing_json(bench, options.threads);
   const auto written = write_files(
