@@ -10,17 +10,16 @@
 namespace ringcraft {
 namespace {
 
-// Of several people in one file the first is read.
+// Of several people in one file one is read.
 void note_other_people(const SkeletonProfile& profile, RawClip& raw) {
   const auto map = map_joints(profile, raw);
   if (!map) return;
+  const std::vector<std::string> people = people_in(profile, raw);
+  if (people.size() < 2) return;
   const std::string& hips =
       raw.joints[static_cast<std::size_t>(map->source[index(Joint::hips)])].name;
-  const auto people = std::count_if(raw.joints.begin(), raw.joints.end(),
-                                    [&](const RawJoint& joint) { return joint.name == hips; });
-  if (people > 1)
-    raw.notes.push_back(
-        fmt::format("{} joints are called {}: of several people the first is read", people, hips));
+  raw.notes.push_back(fmt::format("the hips of {} people ({}): the first called {} are read",
+                                  people.size(), fmt::join(people, ", "), hips));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -339,6 +340,23 @@ ForeignSkeleton foreign_skeleton(const SkeletonProfile& profile) {
   form.metres_per_unit = profile.metres_per_unit.front();
   form.axes = axes_of(profile);
   return form;
+}
+
+std::vector<std::string> people_in(const SkeletonProfile& profile, const RawClip& clip) {
+  std::set<std::string> names;
+  for (const RawJoint& joint : clip.joints) names.insert(plain_name(joint.name));
+  const std::string hips = plain_name(profile.source[index(Joint::hips)]);
+  const std::string leg = plain_name(profile.source[index(Joint::left_upper_leg)]);
+  std::vector<std::string> people;
+  for (const RawJoint& joint : clip.joints) {
+    const std::string name = plain_name(joint.name);
+    if (!name.ends_with(hips)) continue;
+    const std::string prefix = name.substr(0, name.size() - hips.size());
+    if (prefix == "org" || prefix == "mch") continue;  // Rigify's copies of its own bones
+    // A name may end so by itself ("LeftHip"): with a person's hips there is a leg.
+    if (names.contains(prefix + leg)) people.push_back(joint.name);
+  }
+  return people;
 }
 
 float score(const SkeletonProfile& profile, const RawClip& clip) {

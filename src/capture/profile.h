@@ -48,6 +48,9 @@ ForeignSkeleton foreign_skeleton(const SkeletonProfile& profile);
 // All profiles of a folder, by file name.
 Result<std::vector<SkeletonProfile>> read_profiles(const std::filesystem::path& folder);
 
+// The hips of everybody in a capture who is named as the profile says, with any prefix.
+std::vector<std::string> people_in(const SkeletonProfile& profile, const RawClip& clip);
+
 // How well a profile fits, 0 to 1: the share of its joints that the capture has, each below the
 // joint that should carry it. Zero when a limb is missing.
 float score(const SkeletonProfile& profile, const RawClip& clip);

@@ -122,7 +122,20 @@ TEST(Retarget, OfSeveralPeopleInOneFileTheFirstIsReadAndTheyAreCounted) {
   ASSERT_TRUE(read) << to_string(read.error());
   EXPECT_LT(largest_difference(skeleton, poses, read->clip), 0.004f);
   ASSERT_EQ(read->raw.notes.size(), 1u);
-  EXPECT_EQ(read->raw.notes[0], "2 joints are called hips: of several people the first is read");
+  EXPECT_EQ(read->raw.notes[0],
+            "the hips of 2 people (hips, hips): the first called hips are read");
+  for (std::size_t j = kJointCount; j < two.joints.size(); ++j)
+    two.joints[j].name = "Bob_" + two.joints[j].name;
+  const auto prefixed = canonical_of(two, skeleton, {own_names()});
+  ASSERT_TRUE(prefixed) << to_string(prefixed.error());
+  ASSERT_EQ(prefixed->raw.notes.size(), 1u);
+  EXPECT_EQ(prefixed->raw.notes[0],
+            "the hips of 2 people (hips, Bob_hips): the first called hips are read");
+  for (std::size_t j = kJointCount; j < two.joints.size(); ++j)
+    two.joints[j].name = "ORG-" + one.joints[j - kJointCount].name;
+  const auto rigify = canonical_of(two, skeleton, {own_names()});
+  ASSERT_TRUE(rigify) << to_string(rigify.error());
+  EXPECT_TRUE(rigify->raw.notes.empty());  // one person's bones twice
 }
 
 TEST(Retarget, NeitherRestPoseNorSizeNorUnitMatters) {
