@@ -185,6 +185,13 @@ Result<HitSweep> sweep_hits(const MotionLibrary& library, const HitQuery& query,
                          "take larger steps");
     }
   }
+  const bool turned = std::ranges::any_of(
+      ranges, [](const SweepRange& range) { return range.axis == SweepAxis::direction; });
+  if (turned && query.impulse.x == 0 && query.impulse.z == 0 && query.impulse.y != 0) {
+    return usage_error("", "--impulse",
+                       "it is vertical, and has no direction for --sweep to go over",
+                       "give it an X or a Z, or sweep the impulse or the tone");
+  }
   const auto posed = posed_body(library, query);
   if (!posed) return tl::unexpected(posed.error());
   SweepPoint fixed;

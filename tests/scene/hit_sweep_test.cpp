@@ -124,6 +124,16 @@ TEST(HitSweep, WrongRangesAreUsageErrors) {
   }
 }
 
+TEST(HitSweep, AVerticalImpulseHasNoDirectionToGoOver) {
+  HitQuery hit = query();
+  hit.impulse = {0, -20, 0};
+  const auto around = sweep_hits(default_library(), hit, {*sweep_range("direction=0:270:90")});
+  ASSERT_FALSE(around);
+  EXPECT_EQ(around.error().kind, ErrorKind::usage);
+  EXPECT_EQ(around.error().place, "--impulse");
+  EXPECT_TRUE(sweep_hits(default_library(), hit, {*sweep_range("impulse=20")}));
+}
+
 TEST(HitSweep, TooManyPointsAndAnAxisTwiceAreUsageErrors) {
   const SweepRange impulse = *sweep_range("impulse=0:1000:1"),
                    way = *sweep_range("direction=0:20:1");
