@@ -298,6 +298,7 @@ class Checker {
                        !std::regex_search(value, std::regex(pattern->get<std::string>()));
     if (empty || wrong) {
       std::string remedy = remedy_for(schema);
+      if (empty) remedy += " that is not empty";
       if (wrong) remedy += " that matches " + pattern->get<std::string>();
       add(FaultKind::other, pointer, name + " is " + shown(value), remedy);
     }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/utf8.h"
 #include "capture/gltf_parts.h"
 #include "capture/words.h"
 
@@ -53,7 +54,7 @@ class Looks {
       if (name.is_string() && name.get_ref<const std::string&>() != "KHR_materials_unlit" &&
           name.get_ref<const std::string&>() != "KHR_texture_transform")
         return fault("/extensionsRequired",
-                     fmt::format("needs {}", in_quotes(name.get_ref<const std::string&>())),
+                     fmt::format("needs '{}'", clean_name(name.get_ref<const std::string&>())),
                      "export it without compression");
     return {};
   }

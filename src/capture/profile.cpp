@@ -256,7 +256,7 @@ tl::unexpected<Error> unknown_names(const std::vector<SkeletonProfile>& profiles
   const std::string place = clip.joints.empty() ? "" : "joint " + clip.joints[0].name;
   if (nearest == nullptr)
     return input_error(clip.file, place, "no skeleton profile knows these joint names",
-                       "write a profile in assets/profiles, or name one with profile = \"...\"");
+                       "write a profile in assets/profiles");
   return input_error(clip.file, place,
                      fmt::format("no skeleton profile knows all of these joints; {} comes nearest "
                                  "and lacks {}",

@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"TooLongAName", "name = \"" + repeated("\u00e4", 401) + "\"\n", "line 1",
                  "'name' has 401 characters, at most 400", "shorten it"},
         BadInput{"EmptyName", "name = \"\"\n", "line 1", "'name' is \"\"",
-                 "write a string"},
+                 "write a string that is not empty"},
         BadInput{"WrongMapValue", "name = \"a\"\n[liked]\n\"1/2 ~\" = true\n", "line 3",
                  "'liked.1/2 ~' is a boolean", "write a number"},
         BadInput{"WrongMapKey", "name = \"a\"\n[named]\nfar = 1\nNear = 2\n", "line 4",
