@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <regex>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -58,9 +59,10 @@ struct FamilyFigures {
   }
 };
 
-// The first words of a refusal, without its figures.
+// A refusal with N in place of its figures: those of one kind are counted together.
 std::string reason_of(const std::string& wrong) {
-  return wrong.substr(0, wrong.find_first_of(",0123456789"));
+  static const std::regex figure("[0-9]+(\\.[0-9]+)?");
+  return std::regex_replace(wrong, figure, "N");
 }
 
 FamilyFigures figures_of(const Skeleton& skeleton, const Family& family,
