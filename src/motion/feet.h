@@ -38,7 +38,8 @@ class Feet {
   void show(const WorldPose& world);
   void amend(const WorldPose& world);
 
-  // A foot that stands may not stay there: it takes a step of its own in the next tick.
+  // A foot that stands may not stay there, as where its leg will be at the end of a joint's range
+  // soon: it takes a step of its own in the next tick.
   void strain(Side side) { of(side).strained = true; }
 
   // A foot that stands `offset`, m on the ground, off where it was led.

@@ -173,6 +173,22 @@ void Stage::shift(FighterId fighter, Vec3 offset) {
   actor.track.segments.back().launch.placement = actor.launch.placement;
 }
 
+// A foot that stands where its leg would soon be at the end of a joint's range, and the clip's
+// would not, is let go before: a leg that is stopped there takes the foot along at once.
+void Stage::relieve_feet(const Pose& clip, Playback& playback) {
+  constexpr float kAhead = .08f;             // s
+  constexpr float kOffTheClip = radians(8);  // farther out than the clip's joint
+  const FootContacts held = playback.held();
+  if (!held.left && !held.right) return;
+  const LimitExcesses is = limit_excesses(playback.shown()),
+                      was = limit_excesses(playback.shown_before()), own = limit_excesses(clip);
+  for (std::size_t i = 0; i < kLimitCount; ++i) {
+    const auto leg = leg_of_limit(i);
+    if (!leg || !held.of(*leg) || is[i] < own[i] + kOffTheClip || is[i] <= was[i]) continue;
+    if (is[i] + (is[i] - was[i]) * kAhead / kTickSeconds > 0) playback.strain(*leg);
+  }
+}
+
 // The next tick's pose as if nothing stood in its way.
 void Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
   const Clip& clip = library_.action(actor.launch.action).clip;
@@ -188,6 +204,7 @@ void Stage::go_on(const Actor& actor, Tick tick, Motion& motion) const {
     const Pose pose = clip_pose(actor, tick);
     if (seam) stitch(actor, tick, motion.playback);
     motion.playback.next(pose, clip.contacts_at(actor.launch.clip_age(tick)));
+    relieve_feet(pose, motion.playback);
   }
   motion.simulated = simulated;
   for (LandedLimb& limb : motion.landed) limb.step();

@@ -117,6 +117,7 @@ class Stage {
   // The next tick, its limbs held off as they were: a blow's speed is the motion's own, not that of
   // a limb that comes back to it.
   void next(const Actor& actor, Tick tick, Motion& motion) const;
+  static void relieve_feet(const Pose& clip, Playback& playback);
   static Pose given_way(const BodyModel& body, Motion& motion);
   static Pose stopped(const BodyModel& body, Motion& motion, const Pose& pose);
   // `pose` of this tick with its joints inside their ranges, `earlier` a tick ago.
