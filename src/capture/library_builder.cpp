@@ -361,7 +361,7 @@ std::string place_of_lead(const std::filesystem::path& sheet, const std::string&
   for (std::size_t i = 0; i < actions.size(); ++i) {
     const std::string name = text_of(actions[i], "name");
     if (action != name && !action.starts_with(name + "_")) continue;
-    const std::string place = place_in(actions[i], fmt::format("/action/{}", i));
+    std::string place = place_in(actions[i], fmt::format("/action/{}", i));
     if (!place.empty()) return place;
   }
   return place_in(document->value, "");
