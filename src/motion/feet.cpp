@@ -547,9 +547,12 @@ void Feet::place(const Pose& clip_pose, FootContacts contacts, Vec3 hips_turn, P
     const float seam =
         kStraightest + (foot.reach - kStraightest) * glm::smoothstep(0.0f, 1.0f, foot.reach_left);
     foot.reach_left = std::max(0.0f, foot.reach_left - kTickSeconds / blend_seconds_);
-    foot.straightest = std::clamp(std::max({seam, reach_share(skeleton_, leg(side), clip_world),
-                                            foot.straightest - kBends * kTickSeconds}),
-                                  kStraightest, kLongestLeg);
+    // A foot that waits does not bend its leg as the clip's does, which is in the air.
+    const bool waits = foot.mode == Mode::held && !contacts.of(side);
+    const float bends = waits ? 0 : kBends * kTickSeconds;
+    foot.straightest = std::clamp(
+        std::max({seam, reach_share(skeleton_, leg(side), clip_world), foot.straightest - bends}),
+        kStraightest, kLongestLeg);
     straightest[i] = foot.straightest;
     const float over = too_high(hip, ankle[i], straightest[i]);
     const float rises = started_ ? std::max(0.0f, over - foot.over) / kTickSeconds : 0.0f;

@@ -348,6 +348,7 @@ TEST(StruckBodies, AnswerFromWhereTheBlowHasSpunThem) {
 // it jumps by 2.5 and 3.5 m/s there.
 TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
   const std::vector<StruckCase> cases{
+      {"step_forward_left", .25435505, Part::chest, {-42.22151f, 0, 45.560688f}, .68010616f},
       {"roundhouse_lead_low", .58243594, Part::left_thigh, {-63.03146f, 0, 29.456936f}, .64877856f},
       {"turn_left_50", .10254174, Part::chest, {-41.886627f, 0, 48.276802f}, .7684512f}};
   for (const StruckCase& c : cases) {
