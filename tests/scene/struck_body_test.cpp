@@ -344,8 +344,8 @@ TEST(StruckBodies, AnswerFromWhereTheBlowHasSpunThem) {
   }
 }
 
-// A foot that stands where its leg comes to the end of its range steps before, and is not torn off:
-// it jumps by 2.5 and 3.5 m/s there.
+// A foot that stands where its leg comes to the end of its range steps before, and is not torn off,
+// as in the last two, by 3.2 and 4.2 m/s.
 TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
   const std::vector<StruckCase> cases{
       {"step_forward_left", .25435505, Part::chest, {-42.22151f, 0, 45.560688f}, .68010616f},
