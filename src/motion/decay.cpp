@@ -12,6 +12,8 @@ namespace {
 
 constexpr float kSquareRootOf2 = std::numbers::sqrt2_v<float>;
 
+constexpr float kReach = .71f;  // m: what turns with the hips reaches so far
+
 // The rotation vector of q that lies nearest to `reference`: a turn of a little more than half a
 // circle does not become one the other way.
 Vec3 rotation_vector_near(Quat q, Vec3 reference) {
@@ -117,6 +119,7 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
 }
 
 Quat BodyTurn::of(Quat clip) const {
+  if (!rolls.done()) return from_rotation_vector(rolls.value()) * clip;
   if (yaw.done() && lean.done()) return clip;
   const YawAndLean own(clip);
   return yaw_rotation(own.yaw + yaw.value().y) * from_rotation_vector(own.lean + lean.value());
@@ -125,13 +128,14 @@ Quat BodyTurn::of(Quat clip) const {
 void BodyTurn::step(float dt) {
   yaw.step(dt);
   lean.step(dt);
+  rolls.step(dt);
 }
 
-BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
-                   std::optional<float> longest) {
-  constexpr float kReach = .71f;  // m: what turns with the hips reaches so far
-  const Quat carried = glm::normalize(shown * glm::inverse(before) * shown);
-  const YawAndLean was(shown), is(carried), clip(now), next(after);
+BodyTurn body_turn(const Pose& before, const Pose& shown, const Pose& now, const Pose& after,
+                   float seconds, std::optional<float> longest) {
+  const Quat hips = shown.rotation[0];
+  const Quat carried = glm::normalize(hips * glm::inverse(before.rotation[0]) * hips);
+  const YawAndLean was(hips), is(carried), clip(now.rotation[0]), next(after.rotation[0]);
   const float yaw_velocity =
       (wrapped_angle(is.yaw - was.yaw) - wrapped_angle(next.yaw - clip.yaw)) / kTickSeconds;
   const Vec3 lean_velocity = (is.lean - was.lean - (next.lean - clip.lean)) / kTickSeconds;
@@ -144,7 +148,16 @@ BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
   const float turns =
       std::max(seconds, std::min(longest.value_or(0), 2 * std::abs(off) / kFastestTurn));
   return {{kUp * off, kUp * yaw_velocity, turns, stops(kUp * yaw_velocity)},
-          {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)}};
+          {is.lean - clip.lean, lean_velocity, seconds, stops(lean_velocity)},
+          {}};
+}
+
+BodyTurn lying_turn(const Pose& before, const Pose& shown, const Pose& now, const Pose& after,
+                    float seconds) {
+  return {{},
+          {},
+          rotation_decay(before.rotation[0], shown.rotation[0], now.rotation[0], after.rotation[0],
+                         seconds, kReach)};
 }
 
 Decay root_decay(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& before,

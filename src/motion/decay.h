@@ -1,6 +1,7 @@
 #pragma once
 // What is left of a difference at a seam, and how it falls to nothing.
 
+#include <algorithm>
 #include <optional>
 
 #include "motion/pose.h"
@@ -55,14 +56,19 @@ Decay rotation_decay(Quat before, Quat shown, Quat now, Quat after, float second
 // a circle off, and how it leans from there.
 struct BodyTurn {
   Decay yaw, lean;  // about +Y; a rotation vector in the body's heading
+  Decay rolls;      // of one that lies: a rotation vector
   Quat of(Quat clip) const;
-  Vec3 left() const { return yaw.value() + lean.value(); }
+  Vec3 left() const { return yaw.value() + lean.value() + rolls.value(); }
+  float seconds_left() const { return std::max(yaw.seconds_left(), rolls.seconds_left()); }
   void step(float dt);
 };
 // After a simulation, which may leave it facing anywhere, it takes up to `longest` s, so that it
 // does not whirl round.
-BodyTurn body_turn(Quat before, Quat shown, Quat now, Quat after, float seconds,
-                   std::optional<float> longest);
+BodyTurn body_turn(const Pose& before, const Pose& shown, const Pose& now, const Pose& after,
+                   float seconds, std::optional<float> longest);
+// Of one that lies, which has no heading where it is on its head: the shortest way there.
+BodyTurn lying_turn(const Pose& before, const Pose& shown, const Pose& now, const Pose& after,
+                    float seconds);
 
 // The same of a limb's root, as `root_turns` (joint_turns.h).
 Decay root_decay(const Skeleton& skeleton, Side side, const Limb& limb, const Pose& before,

@@ -110,8 +110,8 @@ Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
   // What has more left than a blend takes, as after a simulation, goes on as from one.
-  const float left =
-      std::max(turn_.lean.seconds_left(), rotation_[index(Joint::spine)].seconds_left());
+  const float left = std::max({turn_.lean.seconds_left(), turn_.rolls.seconds_left(),
+                               rotation_[index(Joint::spine)].seconds_left()});
   catches_up_ = simulated_ || left > settings_.blend_seconds;
   const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
                                               arm_by_joints(Side::right, now)};
@@ -120,10 +120,11 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const Vec3 clip_moved = after.hips - now.hips;
   const Vec3 hips_velocity = (moved - clip_moved) / kTickSeconds;
   hips_ = hips_decay(shown_.hips + moved - now.hips, hips_velocity);
-  const float trunk =
-      catches_up_ && !feet_.lies() ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
-  turn_ = body_turn(before_.rotation[0], shown_.rotation[0], now.rotation[0], after.rotation[0],
-                    seconds, catches_up_ ? std::optional(settings_.longest_blend) : std::nullopt);
+  const bool lies = catches_up_ && feet_.lies();
+  const float trunk = catches_up_ && !lies ? trunk_seconds(world_pose(skeleton_, now)) : seconds;
+  turn_ = lies ? lying_turn(before_, shown_, now, after, seconds)
+               : body_turn(before_, shown_, now, after, seconds,
+                           catches_up_ ? std::optional(settings_.longest_blend) : std::nullopt);
   for (std::size_t j = 1; j < kJointCount; ++j) {
     const bool of_trunk = j <= index(Joint::head);
     rotation_[j] = rotation_decay(before_.rotation[j], shown_.rotation[j], now.rotation[j],
@@ -139,7 +140,7 @@ void Playback::stitch(const Pose& now, const Pose& after) {
   const WorldPose world_now = world_pose(skeleton_, now);
   const WorldPose world_after = world_pose(skeleton_, after);
   const WorldPose shown = world_pose(skeleton_, shown_), before = world_pose(skeleton_, before_);
-  feet_.stitch({shown, world_now, world_after, seconds, turn_.yaw.seconds_left(), simulated_,
+  feet_.stitch({shown, world_now, world_after, seconds, turn_.seconds_left(), simulated_,
                 catches_up_, turn_.left()});
   for (const Side side : kSides) {
     const std::size_t hand = index(arm(side).end);

@@ -807,6 +807,38 @@ TEST(Playback, ABodyThatFacesElsewhereDoesNotWhirlRound) {
   }
 }
 
+// It has no heading on its shoulders: by heading and lean it would go up and round to lie down.
+TEST(Playback, ABodyOnItsShouldersRollsDownTheShortestWay) {
+  const Clip idle = test::idle_clip(kSkeleton, 240);
+  Clip lies = idle;
+  for (Tick tick = 0; tick < lies.length(); ++tick) {
+    Pose& pose = lies.frames[static_cast<std::size_t>(tick)];
+    pose.hips.y = 0.12f;
+    pose.rotation[0] = glm::angleAxis(radians(-90), kLeft);
+  }
+  for (const float aside : {0.0f, 15.0f, -40.0f}) {
+    Pose on_shoulders = lies.at(0);
+    on_shoulders.hips.y = 0.3f;
+    on_shoulders.rotation[0] = glm::angleAxis(radians(aside), kForward) *
+                               glm::angleAxis(radians(-75), kLeft) * on_shoulders.rotation[0];
+    const Quat way = on_shoulders.rotation[0] * glm::inverse(lies.at(0).rotation[0]);
+    Playback playback(kSkeleton);
+    Shown shown;
+    for (int i = 0; i < 5; ++i) {
+      playback.next_simulated(on_shoulders);
+      shown.add(playback);
+    }
+    play(playback, lies, {}, 160, shown);
+    float turned = 0;  // rad
+    for (std::size_t t = 1; t < shown.size(); ++t) {
+      turned += glm::length(rotation_vector(shown.poses[t].rotation[0] *
+                                            glm::inverse(shown.poses[t - 1].rotation[0])));
+    }
+    EXPECT_NEAR(turned, glm::length(rotation_vector(way)), 0.02f) << aside;
+    EXPECT_LT(velocity_jump(shown), 1.5f) << aside;
+  }
+}
+
 // A leg that swings through where the clip puts its foot down goes on by its joints: led there, it
 // would be thrown past and pulled straight.
 TEST(Playback, ALegThatSwingsThroughItsPlaceDoesNotJerk) {
