@@ -19,7 +19,7 @@ constexpr float kSinkBrake = 25;          // m/s2: so fast that they are braked 
 constexpr float kMostSink = 0.1f;         // m: a foot for which they would sink deeper is let go
 constexpr float kLoadSeconds = 0.12f;     // in which a foot that was set down takes the weight
 constexpr float kRiseRate = 12;           // 1/s: at which hips that sank come up again
-constexpr float kStepSpeed = 2.0f;        // m/s: mean speed of a long step of its own
+constexpr float kStepSpeed = 1.6f;        // m/s: mean speed of a long step of its own
 constexpr float kFootAcceleration = 17;   // m/s2
 constexpr float kFastFoot = 0.07f;        // s per m/s that a step has to take off
 constexpr float kLongestStep = 0.45f;     // s: for that
@@ -263,6 +263,7 @@ float Feet::clearing_rise(Decay path, float seconds) {
 void Feet::begin_move(Foot& foot, Mode mode, Vec3 offset, Vec3 velocity,
                       float least_seconds) const {
   const float far = glm::length(on_ground(offset)) / settings_.restep_distance;
+  foot.lifted = foot.mode != Mode::held;
   foot.mode = mode;
   foot.rise_seconds = std::max(
       {least_seconds, glm::length(offset) / kStepSpeed,
@@ -371,9 +372,10 @@ void Feet::change_mode(Side side, bool planted, Vec3 clip_ball, float floor) {
     return;
   }
   // 4. A step of its own that has arrived, or that touches the floor on the way.
+  foot.lifted = foot.lifted || height > kTouching;
   const bool comes_down = velocity.y < -kTouchingSpeed || foot.rise_age > foot.rise_seconds / 2;
-  const bool touches = height < kTouching && comes_down && astray > kTouchingAstray &&
-                       glm::length(on_ground(velocity)) < kLandingSpeed;
+  const bool touches = foot.lifted && height < kTouching && comes_down &&
+                       astray > kTouchingAstray && glm::length(on_ground(velocity)) < kLandingSpeed;
   if (foot.mode == Mode::step && (foot.offset.done() || touches)) {
     stand(foot, floor);
   }

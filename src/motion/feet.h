@@ -77,6 +77,7 @@ class Feet {
     bool by_joints = false;  // swings as the leg's joints take it
     bool rests = false;      // held, and has come down
     bool strained = false;   // it may not stay where it stands
+    bool lifted = true;      // off the floor since it stood last
     float rise = 0;          // m: height of an arc on top, so that no foot is moved along the floor
     float rise_age = 0, rise_seconds = 1;
     float load = 0;              // 0 lifted .. 1 carries; says how far the hips sink for it

@@ -552,6 +552,40 @@ TEST(Playback, HipsSinkBitByBitForAFootThatStandsAside) {
   EXPECT_LT(fastest, 2);
 }
 
+// It is still coming down when it has to step on: it would stand at once where it may not stay.
+TEST(Playback, AFootThatMayNotStayIsLiftedThoughItPressesDown) {
+  const Clip lands = test::clip_of(
+      kSkeleton, 90,
+      [](float t) {
+        test::Stance stance;
+        stance.left_ball.y += 0.1f * (1 - test::ramp(t, 0, 0.2f));
+        return stance;
+      },
+      [](float t) {
+        return FootContacts{t > 0.15f, true};
+      },
+      test::in_place);
+  constexpr float kNearlyDown = 0.008f;  // m
+  Playback playback(kSkeleton);
+  Shown shown;
+  bool aside = false, strained = false;
+  for (Tick t = 0; t < lands.length(); ++t) {
+    playback.next(lands.at(t), lands.contacts_at(t));
+    shown.add(playback);
+    const float height = shown.at(shown.size() - 1, Joint::left_toes).y - kSkeleton.toe_height();
+    if (!playback.presses_down(Side::left)) continue;
+    if (!aside) playback.stand_aside(Side::left, {0.05f, 0, 0});
+    aside = true;
+    if (height > kNearlyDown || strained) continue;
+    playback.strain(Side::left);
+    strained = true;
+  }
+  EXPECT_TRUE(strained);
+  const WorldPose clip = world_pose(kSkeleton, lands.at(lands.length() - 1));
+  EXPECT_POINT_NEAR(shown.at(shown.size() - 1, Joint::left_toes),
+                    clip.position[index(Joint::left_toes)], 0.1f);
+}
+
 TEST(Playback, KneesDoNotPop) {
   float clips = 0;
   for (const Clip& clip : boxing_clips()) {

@@ -358,6 +358,20 @@ TEST(StruckBodies, LetGoOfAFootBeforeTheirLegIsAtTheEndOfItsRange) {
 
 // Where the next action begins, arms come back bent, a foot that its ankle kept off its place
 // stands where it is, and a trunk that is still far from upright takes its time.
+// The foot passes below the hip, where the knee goes farthest.
+TEST(StruckBodies, StepNoFasterThanTheirKneesBend) {
+  const std::vector<StruckCase> cases{
+      {"roundhouse_rear_middle",
+       .54341752,
+       Part::left_upper_arm,
+       {-28.62781f, 0, -36.001827f},
+       .79290986f},
+      {"roundhouse_rear_low", .47024613, Part::chest, {-27.46198f, 0, -21.972347f}, .89119923f}};
+  for (const StruckCase& c : cases) {
+    EXPECT_LT(velocity_jump(answer_to_case(c), 40, 100), 1.5f) << c.action;
+  }
+}
+
 TEST(StruckBodies, GoOnFromTheirAnswerWithoutAPop) {
   const std::vector<StruckCase> cases{
       {"guard_2", .096, Part::left_upper_arm, {61.877f, 0, 30.140f}, .726f},
