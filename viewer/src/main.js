@@ -239,6 +239,7 @@ class Page {
 
   playerChanged(what) {
     const { player } = this;
+    if (what === 'time') this.timeline?.follow();
     if (what === 'playing') {
       $('play').innerHTML = icon(player?.playing ? 'pause' : 'play');
       $('play').setAttribute('aria-label', player?.playing ? 'Pause' : 'Play');

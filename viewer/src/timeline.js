@@ -85,7 +85,7 @@ export class Timeline {
   layout() {
     this.width = Math.max(1, this.lanes.clientWidth);
     this.story.events.forEach((event, i) => {
-      const inside = event.t >= this.from - 1e-6 && event.t <= this.to + 1e-6;
+      const inside = this.inView(event.t);
       this.buttons[i].hidden = !inside;
       if (inside) this.buttons[i].style.left = `${this.x(event.t).toFixed(1)}px`;
     });
@@ -220,16 +220,24 @@ export class Timeline {
     return span ? `${this.fighters[lane].name}: ${plain(span.name)}` : '';
   }
 
-  // The playhead at the player's time; a zoomed view pages along.
+  inView(t) {
+    return t >= this.from - 1e-6 && t <= this.to + 1e-6;
+  }
+
+  // The player's time was set or goes on: a zoomed view pages along.
+  follow() {
+    const t = this.player.time;
+    if (this.dragging || this.inView(t)) return;
+    const span = this.to - this.from;
+    this.from = Math.min(Math.max(0, t - 0.1 * span), Math.max(0, this.player.duration - span));
+    this.to = this.from + span;
+    this.layout();
+  }
+
+  // The playhead at the player's time, where the view holds it.
   show() {
     const t = this.player.time;
-    if (!this.dragging && (t < this.from - 1e-6 || t > this.to + 1e-6)) {
-      const span = this.to - this.from;
-      this.from = Math.min(Math.max(0, t - 0.1 * span), Math.max(0, this.player.duration - span));
-      this.to = this.from + span;
-      this.layout();
-      return;
-    }
+    this.head.hidden = !this.inView(t);
     this.head.style.transform = `translateX(${this.x(t).toFixed(1)}px)`;
     this.lanes.setAttribute('aria-valuenow', t.toFixed(2));
   }

@@ -192,6 +192,30 @@ test('the timeline can be dragged', async () => {
   assert.ok(Math.abs(share - 0.75) < 0.01, `${share}`);
 });
 
+test('the timeline zooms in where the pointer is, and goes back to the time that is set', TIMEOUT, async () => {
+  await call('pause');
+  await call('seek', 0);
+  const box = await page.locator('.lanes').boundingBox();
+  const [x, y] = [box.x + 0.8 * box.width, box.y + box.height - 4];
+  const pointed = async () => {
+    await page.mouse.move(x + 1, y);
+    await page.mouse.move(x, y);
+    return Number.parseFloat(await page.locator('.lanes .hover b').innerText());
+  };
+  const before = await pointed();
+  const wheel = (dx, dy) => page.locator('.lanes').evaluate((lanes, [deltaX, deltaY, clientX]) =>
+    lanes.dispatchEvent(new WheelEvent('wheel', { deltaX, deltaY, clientX, cancelable: true })), [dx, dy, x]);
+  await wheel(0, -800);
+  assert.ok(Math.abs((await pointed()) - before) < 0.02, `${before} became ${await pointed()}`);
+  assert.equal(await page.locator('.playhead').evaluate((head) => head.hidden), true);
+  await wheel(-100, 0);
+  assert.ok((await pointed()) < before - 0.02);
+  await page.keyboard.press('Home');
+  assert.equal(await page.locator('.playhead').evaluate((head) => head.hidden), false);
+  await page.locator('.lanes').dispatchEvent('dblclick');
+  assert.ok(Math.abs((await pointed()) - before) < 0.02);
+});
+
 test('the pointer over a lane tells what its fighter does then', async () => {
   const box = await page.locator('.lanes').boundingBox();
   await page.mouse.move(box.x + box.width * 0.5, box.y + 26);  // under the marks
