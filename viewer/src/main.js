@@ -152,6 +152,8 @@ class Page {
     // Buttons do not keep the space bar.
     document.addEventListener('click', (event) => event.target.closest('button')?.blur());
     new ResizeObserver(() => this.fit()).observe($('view'));
+    // After a sleep or a reset of the graphics card the canvas is empty.
+    this.stage.canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     if (innerWidth < 760) this.togglePanel();
   }
 

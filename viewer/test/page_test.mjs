@@ -166,6 +166,23 @@ test('every camera sees something of its own', TIMEOUT, async () => {
   assert.equal(await call('setCamera', 'noSuchCamera'), false);
 });
 
+test('a picture that the graphics card has lost is drawn again', TIMEOUT, async () => {
+  await call('setCamera', 'side');
+  await call('seek', 0.4 * (await duration()));
+  const first = await picture();
+  await page.evaluate(() => new Promise((done) => {
+    const canvas = document.getElementById('stage');
+    const card = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+    canvas.addEventListener('webglcontextlost', () => setTimeout(() => card.restoreContext(), 50), { once: true });
+    // Two frames later what was asked for then is drawn.
+    canvas.addEventListener('webglcontextrestored', () =>
+      requestAnimationFrame(() => requestAnimationFrame(done)), { once: true });
+    card.loseContext();
+  }));
+  const { differing } = await compare(first, await picture());
+  assert.ok(differing < 0.001, `${differing} of the pixels differ`);
+});
+
 test('play goes on, pause stands still, keys step by a frame', TIMEOUT, async () => {
   await call('seek', 0.5);
   await page.keyboard.press('Space');
