@@ -61,7 +61,7 @@ export class Cameras {
   }
 
   set(name, keep = false) {
-    if (!(name in CAMERAS)) return false;
+    if (!Object.hasOwn(CAMERAS, name)) return false;
     this.name = name;
     if (!keep && (name === 'follow' || name === 'orbit')) this.place(this.cast.time < 0 ? 0 : this.cast.time);
     this.changed('name');

@@ -239,7 +239,7 @@ export class Overlays {
   }
 
   set(name, on) {
-    if (!this.layers[name]) return false;
+    if (!Object.hasOwn(this.layers, name)) return false;
     this.layers[name].group.visible = Boolean(on);
     return true;
   }

@@ -312,6 +312,16 @@ test('the address names a time and a camera', async () => {
   assert.equal(await page.locator('#cameras [aria-pressed=true]').innerText(), 'Top');
 });
 
+test('what the address names and is not there changes nothing', TIMEOUT, async () => {
+  const odd = await browser.newPage({ viewport: { width: 400, height: 300 } });
+  odd.setDefaultTimeout(TIMEOUT.timeout);
+  await odd.goto(`${address}#overlays=constructor,none&camera=toString&t=soon`);
+  await odd.evaluate(() => window.ringcraft.ready);
+  assert.equal(await odd.locator('#cameras [aria-pressed=true]').innerText(), 'Follow');
+  assert.equal(await odd.evaluate(() => window.ringcraft.time()), 0);
+  await odd.close();
+});
+
 test('nothing went wrong and nothing left the machine', () => {
   assert.deepEqual(faults, []);
   assert.deepEqual(requests.filter((url) => !/^(data|blob):/.test(url) && url.split('#')[0] !== address), []);
