@@ -149,8 +149,11 @@ class Page {
     $('help-button').onclick = () => $('help').showModal();
     window.addEventListener('hashchange', () => this.readHash());
     document.addEventListener('keydown', (event) => this.key(event));
-    // Buttons do not keep the space bar.
-    document.addEventListener('click', (event) => event.target.closest('button')?.blur());
+    // What a pointer has pressed does not keep the space bar; what Tab has reached does.
+    let pointed = false;
+    document.addEventListener('pointerdown', () => (pointed = true), true);
+    document.addEventListener('keydown', () => (pointed = false), true);
+    document.addEventListener('click', (event) => pointed && event.target.closest('button, input')?.blur());
     new ResizeObserver(() => this.fit()).observe($('view'));
     // After a sleep or a reset of the graphics card the canvas is empty.
     this.stage.canvas.addEventListener('webglcontextrestored', () => this.invalidate());
@@ -160,6 +163,7 @@ class Page {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || $('help').open) return;
     if (event.target.matches?.('select, input:not([type=checkbox])')) return;
+    if (event.key === ' ' && event.target.matches?.('button, input')) return;
     const actions = {
       ' ': () => this.player.toggle(),
       ',': () => this.player.step(-1),

@@ -198,6 +198,30 @@ test('play goes on, pause stands still, keys step by a frame', TIMEOUT, async ()
   assert.ok((await call('time')) < stepped);
 });
 
+test('the space bar presses what Tab has reached, and plays after a click', TIMEOUT, async () => {
+  await call('pause');
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.dataset.overlay || document.activeElement.tagName);
+  await page.locator('#overlay-button').focus();
+  await page.keyboard.press('Space');
+  assert.equal(await focused(), 'overlay-button');
+  const box = page.locator('[data-overlay=capsules]');
+  const before = await box.isChecked();
+  await page.keyboard.press('Tab');  // contacts
+  await page.keyboard.press('Tab');
+  assert.equal(await focused(), 'capsules');
+  await page.keyboard.press('Space');
+  assert.equal(await box.isChecked(), !before);
+  assert.equal(await call('playing'), false);
+  await page.locator('label:has([data-overlay=capsules])').click();
+  assert.equal(await box.isChecked(), before);
+  await page.keyboard.press('Space');
+  assert.equal(await box.isChecked(), before);
+  assert.equal(await call('playing'), true);
+  await call('pause');
+  await page.locator('#overlay-button').click();
+  assert.equal(await page.locator('#overlays').isHidden(), true);
+});
+
 test('the timeline can be dragged', async () => {
   const box = await page.locator('.lanes').boundingBox();
   const y = box.y + box.height - 4;
