@@ -107,7 +107,7 @@ class Page {
   makeBoard() {
     $('board').classList.toggle('crowd', this.cast.fighters.length > 4);
     $('board').innerHTML = this.cast.fighters.map((fighter, i) =>
-      `<div class="fighter${i === 1 && this.cast.fighters.length === 2 ? ' right' : ''}" style="--c:${fighter.colour}"><div class="who"><b>${escapeHtml(fighter.name)}</b><span class="action"></span></div>
+      `<div class="fighter${i === 1 && this.cast.fighters.length === 2 ? ' right' : ''}" style="--c:${fighter.colour}"><div class="who"><b title="${escapeHtml(fighter.name)}">${escapeHtml(fighter.name)}</b><span class="action"></span></div>
        <div class="health"><i class="late"></i><i class="now"></i></div><div class="score"></div></div>`).join('');
     this.boardRows = [...$('board').children].map((root) => ({
       action: root.querySelector('.action'), now: root.querySelector('.now'), late: root.querySelector('.late'),

@@ -28,7 +28,7 @@ export class Timeline {
     this.tall = fighters.length <= 2;  // labels below the marks, not between them
     this.laneHeight = this.tall ? 30 : 17;
     root.innerHTML = `
-      <div class="lanes-names">${fighters.map((f) => `<div style="height:${this.laneHeight}px;--c:${f.colour}"><i></i><span>${escapeHtml(f.name)}</span></div>`).join('')}</div>
+      <div class="lanes-names">${fighters.map((f) => `<div style="height:${this.laneHeight}px;--c:${f.colour}"><i></i><span title="${escapeHtml(f.name)}">${escapeHtml(f.name)}</span></div>`).join('')}</div>
       <div class="lanes" style="--lane:${this.laneHeight}px;--mark:${this.tall ? 9 : 6.5}px" role="slider" tabindex="0" aria-label="Time" aria-valuemin="0" aria-valuemax="${player.duration.toFixed(2)}">
         <canvas></canvas><div class="marks"></div><div class="playhead"><b></b></div><div class="hover" hidden></div>
       </div>`;

@@ -113,6 +113,19 @@ test('every fighter moves', async () => {
   assert.equal(await call('jointPosition', 0, 'noSuchJoint'), null);
 });
 
+test('a long name is cut on the board, and covers neither action nor neighbour', async () => {
+  await call('seek', 0.5 * (await duration()));
+  const rows = await page.evaluate(() => [...document.querySelectorAll('#board .fighter')].map((row) => {
+    const name = row.querySelector('b');
+    const before = name.textContent;
+    name.textContent = 'Theophilus '.repeat(12);
+    const [within, own, action] = [row, name, row.querySelector('.action')].map((node) => node.getBoundingClientRect());
+    name.textContent = before;
+    return { inside: own.left >= within.left - 0.5 && own.right <= within.right + 0.5, action: action.width, title: name.title === before };
+  }));
+  for (const row of rows) assert.ok(row.inside && row.action > 20 && row.title, JSON.stringify(rows));
+});
+
 test('a click on a mark jumps to its event', async () => {
   await call('seek', 0);
   const found = await page.evaluate(() => {
