@@ -1,7 +1,8 @@
 // Opens a fight's page as a visitor does, from a file:// address, and compares what it shows.
 //   FIGHT_HTML=out/duel/fight.html node --test test/page_test.mjs
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
@@ -357,6 +358,24 @@ test('what the address names and is not there changes nothing', TIMEOUT, async (
   assert.equal(await odd.locator('#cameras [aria-pressed=true]').innerText(), 'Follow');
   assert.equal(await odd.evaluate(() => window.ringcraft.time()), 0);
   await odd.close();
+});
+
+test('a page that is cut off says so', TIMEOUT, async () => {
+  const whole = readFileSync(file);
+  const folder = mkdtempSync(path.join(tmpdir(), 'ringcraft-page-'));
+  const cut = await browser.newPage();
+  try {
+    const name = path.join(folder, 'fight.html');
+    for (const share of [0.5, 0.999]) {
+      writeFileSync(name, whole.subarray(0, Math.floor(share * whole.length)));
+      await cut.goto(pathToFileURL(name).href);
+      assert.match(await cut.locator('#message').innerText(), /cut off/, `${share}`);
+    }
+  } finally {
+    await cut.close();
+    rmSync(folder, { recursive: true });
+  }
+  assert.equal(await page.locator('#message').isHidden(), true);
 });
 
 test('nothing went wrong and nothing left the machine', () => {
