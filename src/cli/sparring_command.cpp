@@ -8,6 +8,7 @@
 #include "capture/library_file.h"
 #include "capture/person.h"
 #include "cli/commands.h"
+#include "cli/scene_inputs.h"
 #include "motion/strike_fit.h"
 #include "planner/sparring.h"
 #include "scene/fitted_library.h"
@@ -94,6 +95,7 @@ int run_sparring(const SparringOptions& sparring, const CommonOptions& options) 
   if (!sparring.captures.empty()) return spar_in_captures(sparring, *attacker, *folder, options);
   const auto library = load_library(sparring.library);
   if (!library) return fail(library.error());
+  warn_without_attacks(*library, sparring.library);
 
   SparringSettings settings;
   settings.threads = options.threads;
