@@ -708,6 +708,14 @@ std::vector<Pose> thrown(const Pose& start, Vec3 velocity, float spin, Tick coun
   return poses;
 }
 
+// A simulation leaves the body at rest.
+void leave(Playback& playback, const Pose& pose, Shown& shown) {
+  for (int i = 0; i < 5; ++i) {
+    playback.next_simulated(pose);
+    shown.add(playback);
+  }
+}
+
 TEST(Playback, AfterASimulationTheBodyGoesOnFromItsPoseAndVelocity) {
   const Clip idle = test::idle_clip(kSkeleton, 240);
   for (const float spin : {1.0f, 3.0f, -2.0f}) {
@@ -780,10 +788,7 @@ TEST(Playback, AFootSimulatedIntoTheFloorComesUpWithoutAJump) {
   Shown shown;
   Pose sunk = idle.at(0);
   sunk.hips.y -= 0.03f;
-  for (int i = 0; i < 5; ++i) {
-    playback.next_simulated(sunk);
-    shown.add(playback);
-  }
+  leave(playback, sunk, shown);
   play(playback, idle, {}, 60, shown);
   EXPECT_LT(position_jump(shown), 0.005f);
   EXPECT_NEAR(shown.at(shown.size() - 1, Joint::left_toes).y, kSkeleton.toe_height(), 1e-3f);
@@ -801,10 +806,7 @@ TEST(Playback, AFootTurnsTheWayRoundItsBodyDoes) {
     }
     Playback playback(kSkeleton);
     Shown shown;
-    for (int i = 0; i < 5; ++i) {
-      playback.next_simulated(turned);
-      shown.add(playback);
-    }
+    leave(playback, turned, shown);
     play(playback, idle, {}, 160, shown);
     for (std::size_t t = 0; t < shown.size(); ++t) {
       for (const Side side : kSides) {
@@ -824,10 +826,7 @@ TEST(Playback, ABodyThatFacesElsewhereDoesNotWhirlRound) {
   for (const float off : {60.0f, 100.0f, 140.0f, -140.0f}) {
     Playback playback(kSkeleton);
     Shown shown;
-    for (int i = 0; i < 5; ++i) {
-      playback.next_simulated(placed(idle.at(0), {0, 0, radians(off)}));
-      shown.add(playback);
-    }
+    leave(playback, placed(idle.at(0), {0, 0, radians(off)}), shown);
     play(playback, idle, {}, 160, shown);
     float fastest = 0;  // rad/s
     for (std::size_t t = 1; t < shown.size(); ++t) {
@@ -858,10 +857,7 @@ TEST(Playback, ABodyOnItsShouldersRollsDownTheShortestWay) {
     const Quat way = on_shoulders.rotation[0] * glm::inverse(lies.at(0).rotation[0]);
     Playback playback(kSkeleton);
     Shown shown;
-    for (int i = 0; i < 5; ++i) {
-      playback.next_simulated(on_shoulders);
-      shown.add(playback);
-    }
+    leave(playback, on_shoulders, shown);
     play(playback, lies, {}, 160, shown);
     float turned = 0;  // rad
     for (std::size_t t = 1; t < shown.size(); ++t) {
