@@ -110,8 +110,7 @@ Decay Playback::hips_decay(Vec3 offset, Vec3 velocity) const {
 void Playback::stitch(const Pose& now, const Pose& after) {
   if (!started_) return;
   // What has more left than a blend takes, as after a simulation, goes on as from one.
-  const float left = std::max({turn_.lean.seconds_left(), turn_.rolls.seconds_left(),
-                               rotation_[index(Joint::spine)].seconds_left()});
+  const float left = rotation_[index(Joint::spine)].seconds_left();  // no less than the hips have
   catches_up_ = simulated_ || left > settings_.blend_seconds;
   const std::array<bool, 2> arms_by_joints = {arm_by_joints(Side::left, now),
                                               arm_by_joints(Side::right, now)};
