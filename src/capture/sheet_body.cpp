@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/ankle.h"
+
 namespace ringcraft {
 
 namespace {
@@ -17,6 +19,7 @@ constexpr float kSoftReach = 0.88f;      // of a limb's length: beyond it the re
 constexpr float kClosestReach = 0.32f;   // elbow 37, knee 37 degrees: flesh meets flesh
 constexpr float kSoftFold = 0.06f;       // over which a limb that folds so far gives way
 constexpr float kLongestReach = 0.995f;  // and never comes to this share (elbow 169 degrees)
+constexpr float kOffFloor = 0.01f;       // m: of a foot that has nothing of the floor any more
 constexpr float kHandLength = 0.17f;     // m, wrist to finger tips
 constexpr float kHandThickness = 0.02f;  // m, half of it
 
@@ -188,7 +191,11 @@ void set_leg(const Skeleton& skeleton, Side side, FootTarget foot, Quat pelvis, 
     const Vec3 at = world.position[index(limb.end)];
     wanted = wanted * glm::angleAxis(toes_off_floor(skeleton, at, wanted), kLeft);
   }
-  pose.rotation[index(limb.end)] = glm::normalize(glm::inverse(shin) * wanted);
+  const Quat ankle = glm::normalize(glm::inverse(shin) * wanted);
+  // A foot that steps leans along with its shin as soon as it is off the floor.
+  const float steps =
+      foot.freedom > 0 ? 0 : glm::smoothstep(0.0f, kOffFloor, foot.ball.y - skeleton.toe_height());
+  pose.rotation[index(limb.end)] = glm::slerp(ankle, ankle_within_range(ankle), steps);
   // The toes of a foot on its ball lie flat.
   const float flat = -foot.heel * (1 - std::clamp(foot.freedom, 0.0f, 1.0f));
   pose.rotation[index(toes(side))] = glm::angleAxis(flat, kLeft);

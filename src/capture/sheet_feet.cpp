@@ -9,7 +9,11 @@ namespace {
 
 constexpr float kH = kCanonicalHeight;
 constexpr float kLetGo = 0.10f;    // s: from a set foot to a hanging one, and back
-constexpr float kRollOff = 14.0f;  // degrees of heel in the middle of a step
+constexpr float kHeelOff = 0.10f;  // s: the heel is off the floor so long before and after the ball
+// Of the heel as the ball leaves and as it meets the floor, degrees over what the foot stands with
+// (captured steps: 0 to 33 and 0 to 19).
+constexpr float kRollOff = 14.0f, kRollOn = 9.0f;
+constexpr float kFullRoll = 0.3f;  // m: of a step of this length and longer
 constexpr float kClear =
     0.075f;  // m: of a free ankle that moves over the floor, above a standing one
 constexpr float kComesDown = 0.8f;  // of a foot that lands: height over the way that is left
@@ -274,6 +278,29 @@ float FootMotion::freedom(const Span& span, float t) const {
   return std::min(up, down);
 }
 
+// A foot that steps rolls over its ball: its heel leaves the floor faster and faster before the
+// ball does, and comes to rest after it.
+float FootMotion::heel_roll(float t) const {
+  float roll = 0;
+  for (const Span& span : spans_) {
+    if (span.free) continue;
+    const float before = (span.lift - t) / kHeelOff, after = (t - span.land) / kHeelOff;
+    if (before >= 1 || after >= 1) continue;
+    const float share = std::min(1.0f, glm::distance(span.from, span.to) / kFullRoll);
+    const float off = radians(kRollOff) * share, on = radians(kRollOn) * share;
+    if (before >= 0) {
+      roll += off * (1 - before) * (1 - before);
+    } else if (after >= 0) {
+      roll += on * (1 - after) * (1 - after);
+    } else {
+      const float length = span.land - span.lift, u = (t - span.lift) / length, v = 1 - u;
+      const float steep = 2 * length / kHeelOff;  // of either end, over the whole step
+      roll += off * v * v * (1 + 2 * u + steep * u) + on * u * u * (1 + 2 * v + steep * v);
+    }
+  }
+  return roll;
+}
+
 bool FootMotion::planted(float t) const {
   return span_at(t) == nullptr;
 }
@@ -290,15 +317,17 @@ FootTarget FootMotion::at(float t, const BodyTargets& trunk) const {
   if (!knee_.empty()) {
     foot.knee_pole = trunk.pelvis_rotation * normalized_or(knee_.at(t), kForward);
   }
+  foot.heel += heel_roll(t);
   const Span* span = span_at(t);
   if (span == nullptr) return foot;
   const float u = std::clamp((t - span->lift) / (span->land - span->lift), 0.0f, 1.0f);
   if (!span->free) {
-    // A quick low arc: away at once, the height leaves and meets the floor without a blow.
-    const float along = u * u * (3 - 2 * u);
+    // A quick low arc: the foot, which its heel has set in motion, is gentle at either end (half
+    // way from the least acceleration to the least jerk), the height leaves and meets the floor
+    // without a blow.
+    const float along = u * u * (1.5f + u * (4 - u * (7.5f - 3 * u)));
     const float rise = std::sin(kPi * u) * std::sin(kPi * u);
     foot.ball = span->from + (span->to - span->from) * along + kUp * (span->height * rise);
-    foot.heel += radians(kRollOff) * rise * (1 - u);
     return foot;
   }
   foot.freedom = freedom(*span, t);

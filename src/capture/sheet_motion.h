@@ -97,6 +97,7 @@ class FootMotion {
   };
   const Span* span_at(float t) const;
   float freedom(const Span& span, float t) const;
+  float heel_roll(float t) const;  // rad
   void make_spans(const SheetAction& action, const Placement& end);
   void make_angles(const SheetAction& action, const std::vector<SheetKey>& keys,
                    const std::vector<Placement>& root, const Placement& end);

@@ -89,6 +89,7 @@ nlohmann::json json_of(const LibraryCheck& check) {
                        {"turn_rad", m.turn_rad},
                        {"foot_skate", m.foot_skate},
                        {"limit_violations", m.limit_violations},
+                       {"own_jump_mps", m.own_jump_mps},
                        {"worst_limit_deg", m.worst_limit_deg},
                        {"self_penetration_m", m.self_penetration_m},
                        {"still_hands", m.still_hands},

@@ -135,6 +135,9 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   m.name = action.name;
   m.kind = action.kind;
   m.authored = is_authored(action);
+  m.steps_or_rises = action.ends_lying == Lying::none &&
+                     (action.kind == Kind::transition || action.kind == Kind::response ||
+                      action.kind == Kind::get_up);
   m.left_out = action.left_out;
   m.seconds = seconds(action.length());
   m.peak_speed_mps = peak_speed(skeleton, action);
@@ -142,6 +145,7 @@ ActionMeasures measure_action(const BodyModel& body, const Action& action) {
   m.travel_m = glm::length(end.position());
   m.turn_rad = end.yaw;
   m.foot_skate = foot_skate_ratio(skeleton, action.clip.frames, kTicksPerSecond);
+  m.own_jump_mps = own_jump(skeleton, action.clip);
   measure_limits(body, action, m);
   measure_self_penetration(body, action, m);
   m.still_hands = still_hands(skeleton, action);
@@ -186,6 +190,10 @@ void add_action_faults(const MotionLibrary& library, LibraryCheck& check) {
     }
     if (m.foot_skate > kMostFootSkate) {
       check.faults.push_back(fmt::format("{}: feet slide, ratio {:.3f}", m.name, m.foot_skate));
+    }
+    if (m.authored && m.steps_or_rises && m.own_jump_mps > kMostOwnJump) {
+      check.faults.push_back(fmt::format(
+          "{}: a joint jumps by {:.1f} m/s from one frame to the next", m.name, m.own_jump_mps));
     }
     if (m.authored && m.self_penetration_m > kMostSelfPenetration) {
       check.faults.push_back(fmt::format("{}: the body is {:.3f} m inside itself, {}", m.name,

@@ -19,13 +19,15 @@ struct ActionMeasures {
   std::string name;
   Kind kind = Kind::idle;
   bool authored = false;
-  bool left_out = false;  // not thrown at this opponent: no gate and no fault counts it
+  bool steps_or_rises = false;  // a step, an answer that stays up, a getting up
+  bool left_out = false;        // not thrown at this opponent: no gate and no fault counts it
   double seconds = 0;
   double peak_speed_mps = 0;  // of the striking joint relative to the hips; 0 without a strike
   double strike_begin_s = 0;  // first tick at which it can hit
   double travel_m = 0;        // of the root over the action
   double turn_rad = 0;
   double foot_skate = 0;             // docs/sources.md, V4
+  double own_jump_mps = 0;           // library_check_seams.h
   std::size_t limit_violations = 0;  // frames with a joint beyond its range by more than 3 degrees
   double worst_limit_deg = 0;        // degrees beyond its range of the joint that is farthest so
   std::string worst_joint;           // that joint

@@ -30,7 +30,7 @@ auto of_kind(StrikeKind kind) {
 // Over all actions: ranges of joints, sliding feet, parts inside each other.
 void add_body_gates(LibraryCheck& check) {
   if (check.actions.empty()) return;
-  double beyond = 0, excess = 0, skate = 0, slid = 0, all = 0, deepest = 0;
+  double beyond = 0, excess = 0, skate = 0, slid = 0, all = 0, deepest = 0, jump = 0;
   std::vector<double> depths;
   for (const ActionMeasures& m : check.actions) {
     if (m.left_out) continue;
@@ -41,6 +41,7 @@ void add_body_gates(LibraryCheck& check) {
     all += m.seconds;
     depths.insert(depths.end(), m.self_depths_m.begin(), m.self_depths_m.end());
     if (m.authored) deepest = std::max(deepest, m.self_penetration_m);
+    if (m.authored && m.steps_or_rises) jump = std::max(jump, m.own_jump_mps);
   }
   std::sort(depths.begin(), depths.end());
   check.gates.push_back({"joints beyond their range", beyond, 0, 0, "frames"});
@@ -48,6 +49,8 @@ void add_body_gates(LibraryCheck& check) {
       {"joints beyond their range, worst", excess, 0, kMostBeyondDegrees, "degrees"});
   check.gates.push_back({"foot skate, worst action", skate, 0, kMostFootSkate, ""});
   check.gates.push_back({"foot skate, mean over time", slid / all, 0, kMostFootSkate, ""});
+  check.gates.push_back(
+      {"steps and get-ups, jump of velocity, worst", jump, 0, kMostOwnJump, "m/s"});
   check.gates.push_back({"self-penetration, 99 % of all frames",
                          100 * depths[depths.size() * 99 / 100], 0, 100 * kMostSelfPenetration,
                          "cm"});

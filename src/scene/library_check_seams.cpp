@@ -83,6 +83,11 @@ SeamMeasures measure_seam(const MotionLibrary& library, ActionId from, const Edg
 
 }  // namespace
 
+double own_jump(const Skeleton& skeleton, const Clip& clip) {
+  const Jumps all = own_jumps(skeleton, clip, 0, clip.length());
+  return static_cast<double>(*std::max_element(all.begin(), all.end()));
+}
+
 std::vector<SeamMeasures> measure_seams(const MotionLibrary& library) {
   std::vector<Ends> ends;
   ends.reserve(library.actions().size());

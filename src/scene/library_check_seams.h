@@ -17,6 +17,10 @@ struct SeamMeasures {
   double jump = 0;
 };
 
+// m/s by which the velocity of the joint that jumps most changes in a clip from one frame of 60 Hz
+// to the next.
+double own_jump(const Skeleton& skeleton, const Clip& clip);
+
 // Every edge between actions that a fighter can choose, out of responses and get-ups too, on a body
 // of canonical height; by action and edge.
 std::vector<SeamMeasures> measure_seams(const MotionLibrary& library);

@@ -92,6 +92,20 @@ TEST(LibraryGates, ABlowThatSaysNoReachIsNotMet) {
   expect_falls(bad, "aims met within 3 cm over their reach");
 }
 
+TEST(LibraryGates, AStepThatJerksIsNamed) {
+  const LibraryCheck bad = changed([](Action& action) {
+    if (action.name == "step_back") action.clip.frames[20].hips.x += 0.03f;
+    if (action.name == "jab" || action.name == "knockdown_back")
+      action.clip.frames[20].hips.x += 0.03f;  // asked of who steps or rises only
+  });
+  expect_falls(bad, "steps and get-ups, jump of velocity, worst");
+  std::vector<std::string> jerks;
+  for (const std::string& fault : bad.faults)
+    if (fault.find("a joint jumps by") != std::string::npos) jerks.push_back(fault);
+  ASSERT_EQ(jerks.size(), 1u);
+  EXPECT_EQ(jerks[0].find("step_back: "), 0u) << jerks[0];
+}
+
 TEST(LibraryGates, ASeamToSomethingFarAwayJumps) {
   const LibraryCheck bad = changed([](Action& action) {
     if (action.kind != Kind::attack) return;
